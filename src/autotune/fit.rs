@@ -2,8 +2,8 @@
 
 use nalgebra::DVector;
 
-use super::projection::{ORDER, Problem, autoregression};
-use super::response::Command;
+use super::projection::{ORDER, ProjectionProblem, autoregression};
+use super::response::HeldCommand;
 use super::search::{ONE, SearchScales, Searches, TWO};
 use super::structure_fit::{StructureFit, distinct, fitted};
 use super::{Contradiction, LEAST_EXPLAINED, ProcessError, ProcessModel, ProcessRecord};
@@ -45,7 +45,7 @@ fn saturated(output: &[f64], quantum: f64, correlation: f64) -> bool {
 }
 
 pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
-    let command = Command::of(record);
+    let command = HeldCommand::of(record);
     let samples = record.samples();
     if samples < ProcessError::LEAST_SAMPLES {
         return Err(ProcessError::FewSamples { samples });
@@ -59,7 +59,8 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
     // Mean time between changes: dead times beyond it are those of another change.
     let half_s = (changes[changes.len() - 1] - changes[0]) / (changes.len() - 1) as f64;
     let scale_s = 2.0 * half_s;
-    let mut problem = Problem { command, output: record.output().to_vec(), first: ORDER, autoregression: vec![] };
+    let mut problem =
+        ProjectionProblem { command, output: record.output().to_vec(), first: ORDER, autoregression: vec![] };
     let longest_s = half_s.min(duration_s / 3.0);
     // The command before the record acts up to the dead time, of whichever structure: readings so early do not count. Those that
     // do count may show a longer dead time.
@@ -75,7 +76,7 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
         }
         problem.first = first;
     }
-    let mut fits = |problem: &Problem| {
+    let mut fits = |problem: &ProjectionProblem| {
         searches = searches.pass(problem, &[ONE.as_slice(), &TWO].concat(), scales);
         let mut fits: Vec<StructureFit> =
             searches.best().filter_map(|(family, point)| fitted(problem, family, point, interval_s, quantum)).collect();

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Family;
-use super::response::Command;
+use super::response::HeldCommand;
 
 /// Order of the autoregression of the residuals: a load that wanders passes the process's lag and is smooth.
 pub(super) const ORDER: usize = 2;
@@ -12,8 +12,8 @@ pub(super) const ORDER: usize = 2;
 const RIDGE: f64 = 1e-12;
 
 /// Readings and command, with the weights of the errors' autoregression.
-pub(super) struct Problem {
-    pub(super) command: Command,
+pub(super) struct ProjectionProblem {
+    pub(super) command: HeldCommand,
     pub(super) output: Vec<f64>,
     /// First reading that counts: the command before the record is not known.
     pub(super) first: usize,
@@ -36,7 +36,7 @@ pub(super) struct Projection {
     pub(super) plain: DVector<f64>,
 }
 
-impl Problem {
+impl ProjectionProblem {
     /// Columns: answers to the command, then load, trend of an integrator, and modes of the initial state.
     pub(super) fn columns(&self, family: Family, point: &[f64]) -> Vec<Vec<f64>> {
         let (command, delay_s) = (&self.command, point[0]);

@@ -4,13 +4,13 @@ use crate::experiment::Record;
 
 /// A command that is constant between its changes, and the instants at which the output was read.
 #[derive(Clone, Debug)]
-pub(super) struct Command {
+pub(super) struct HeldCommand {
     /// Instants and values of the changes, the first at the record's beginning.
     changes: Vec<(f64, f64)>,
     time_s: Vec<f64>,
 }
 
-impl Command {
+impl HeldCommand {
     /// The command of a record, each value from its row's time on; times count from the first row.
     pub(super) fn of(record: &Record) -> Self {
         let begin_s = record.time_s()[0];

@@ -1,7 +1,7 @@
 //! The search over dead times and time constants: grids, and pattern searches from their best points.
 
 use super::Family;
-use super::projection::{Problem, SearchPoint};
+use super::projection::{ProjectionProblem, SearchPoint};
 
 /// Starts: so many time constants, and so many dead times, on grids.
 const TIME_CONSTANTS: u32 = 10;
@@ -27,7 +27,7 @@ pub(super) struct SearchScales {
 }
 
 /// The points with the least squares.
-fn few(problem: &Problem, family: Family, points: impl IntoIterator<Item = SearchPoint>) -> Vec<SearchPoint> {
+fn few(problem: &ProjectionProblem, family: Family, points: impl IntoIterator<Item = SearchPoint>) -> Vec<SearchPoint> {
     let mut few: Vec<(f64, SearchPoint)> =
         points.into_iter().map(|point| (problem.square(family, &point), point)).collect();
     few.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -59,7 +59,12 @@ fn with_second(point: &[f64]) -> impl Iterator<Item = SearchPoint> {
 }
 
 /// A pattern search from one start, which steps over the kinks where a delayed switching meets a reading.
-fn descent(problem: &Problem, family: Family, start: SearchPoint, scales: SearchScales) -> (f64, SearchPoint) {
+fn descent(
+    problem: &ProjectionProblem,
+    family: Family,
+    start: SearchPoint,
+    scales: SearchScales,
+) -> (f64, SearchPoint) {
     let interval_s = scales.scale_s / 400.0;
     let count = (problem.output.len() - problem.first) as f64;
     let (mut square, mut point) = (problem.square(family, &start), start);
@@ -120,7 +125,7 @@ impl Searches {
     }
 
     /// The searches of these structures on this problem, from a grid and from the ends of the pass before.
-    pub(super) fn pass(&self, problem: &Problem, families: &[Family], scales: SearchScales) -> Self {
+    pub(super) fn pass(&self, problem: &ProjectionProblem, families: &[Family], scales: SearchScales) -> Self {
         let mut found = Self::default();
         for &family in families {
             let before = self.ends(family).cloned();

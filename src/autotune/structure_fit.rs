@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::projection::{Problem, unit_columns};
+use super::projection::{ProjectionProblem, unit_columns};
 use super::search::SETTLED;
 use super::{Family, ProcessModel, Ranged};
 use crate::identify::NORMAL_95;
@@ -48,7 +48,7 @@ pub(super) struct StructureFit {
 }
 
 pub(super) fn fitted(
-    problem: &Problem,
+    problem: &ProjectionProblem,
     family: Family,
     point: &[f64],
     interval_s: f64,

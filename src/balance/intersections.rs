@@ -7,7 +7,7 @@ use nalgebra::{Complex, DMatrix, DVector, Matrix2, Vector2};
 
 use super::BalanceError;
 use super::harmonics::{Output, pack};
-use super::nyquist::{Axis, near};
+use super::nyquist::{SampledRange, near};
 use super::nyquist_count::roots_beyond;
 use crate::describing::{DescribingError, DescribingFunction};
 use crate::nonlinearity::Sinusoid;
@@ -83,7 +83,7 @@ pub struct HarmonicBalance<'a, N> {
 }
 
 /// A bias, and the gain of the characteristic there at an amplitude.
-type Gain = (f64, Complex<f64>);
+type BiasedGain = (f64, Complex<f64>);
 
 impl<'a, N> HarmonicBalance<'a, N>
 where
@@ -128,8 +128,8 @@ where
         amplitude: RangeInclusive<f64>,
         omega_rad_s: RangeInclusive<f64>,
     ) -> Result<Self, BalanceError> {
-        Axis::amplitude(&amplitude)?;
-        Axis::frequency(&omega_rad_s)?;
+        SampledRange::amplitude(&amplitude)?;
+        SampledRange::frequency(&omega_rad_s)?;
         Ok(Self { amplitude, omega_rad_s, ..self })
     }
     /// The range of frequencies searched, rad/s.
@@ -149,8 +149,8 @@ where
     /// amplitude below switching.
     pub fn intersections(&self) -> Result<Vec<Intersection>, BalanceError> {
         let failure = Cell::new(None);
-        let amplitude = Axis::amplitude(&self.amplitude)?;
-        let omega = Axis::frequency(&self.omega_rad_s)?;
+        let amplitude = SampledRange::amplitude(&self.amplitude)?;
+        let omega = SampledRange::frequency(&self.omega_rad_s)?;
         let gains = amplitude.sample(
             |amplitude| Some(self.gains(amplitude, &failure)).filter(|gains| !gains.is_empty()),
             |a, b| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| near(a.1, b.1)),
@@ -173,7 +173,7 @@ where
         for steps in gains.windows(2) {
             let (Some(here), Some(next)) = (&steps[0].1, &steps[1].1) else { continue };
             for gain in here {
-                let nearest = |a: &&Gain, b: &&Gain| (a.0 - gain.0).abs().total_cmp(&(b.0 - gain.0).abs());
+                let nearest = |a: &&BiasedGain, b: &&BiasedGain| (a.0 - gain.0).abs().total_cmp(&(b.0 - gain.0).abs());
                 let Some(after) = next.iter().min_by(nearest) else { continue };
                 for (omega, response) in &response_steps {
                     let Some(share) = crossing([gain.1, after.1], *response) else { continue };
@@ -218,7 +218,7 @@ where
     }
 
     /// Every bias that fits an amplitude, with the gain there. Keeps every failure but of the amplitude's size.
-    fn gains(&self, amplitude: f64, failure: &Cell<Option<DescribingError>>) -> Vec<Gain> {
+    fn gains(&self, amplitude: f64, failure: &Cell<Option<DescribingError>>) -> Vec<BiasedGain> {
         let describe = |bias: f64| match self.describe(amplitude, bias) {
             Ok(df) => Some(df),
             Err(DescribingError::Nonlinearity(_) | DescribingError::NotFinite { .. }) => None,

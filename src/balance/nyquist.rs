@@ -18,12 +18,12 @@ const DEPTH: u32 = 20;
 const POINTS: usize = 100_000;
 
 /// The sampled quantity, for errors.
-pub(super) struct Axis {
+pub(super) struct SampledRange {
     pub(super) quantity: &'static str,
     pub(super) range: RangeInclusive<f64>,
 }
 
-impl Axis {
+impl SampledRange {
     /// Amplitudes of the characteristic's input.
     pub(super) fn amplitude(range: &RangeInclusive<f64>) -> Result<Self, BalanceError> {
         domain::ascending(["lowest amplitude", "highest amplitude"], range, "input units")?;
@@ -98,7 +98,7 @@ pub fn nyquist_locus(
     plant: &TransferFunction,
     omega_rad_s: RangeInclusive<f64>,
 ) -> Result<Vec<(f64, Complex<f64>)>, BalanceError> {
-    let points = Axis::frequency(&omega_rad_s)?.sample(|w| plant.response(w).ok(), |a, b| near(*a, *b))?;
+    let points = SampledRange::frequency(&omega_rad_s)?.sample(|w| plant.response(w).ok(), |a, b| near(*a, *b))?;
     Ok(points.into_iter().filter_map(|(omega, response)| Some((omega, response?))).collect())
 }
 
@@ -116,6 +116,6 @@ pub fn negative_inverse_locus(
         let df = describing(&Sinusoid::new(bias, amplitude).ok()?).ok()?;
         Some(-Complex::new(df.p, df.q).inv()).filter(|value| value.is_finite())
     };
-    let points = Axis::amplitude(&amplitude)?.sample(value, |a, b| near(*a, *b))?;
+    let points = SampledRange::amplitude(&amplitude)?.sample(value, |a, b| near(*a, *b))?;
     Ok(points.into_iter().filter_map(|(amplitude, value)| Some((amplitude, value?))).collect())
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Complex;
 
-use super::nyquist::Axis;
+use super::nyquist::SampledRange;
 use crate::plant::{TransferFunction, horner};
 
 /// Largest change of the argument over a step, rad.
@@ -34,7 +34,7 @@ pub(super) fn roots_beyond(plant: &TransferFunction, gain: f64, beyond: f64) -> 
     let close = |a: &(f64, Complex<f64>, f64), b: &(f64, Complex<f64>, f64)| {
         (b.1 / a.1).arg().abs() <= TURN && ((b.0 - a.0) * plant.delay_s() <= 1.0 || a.2.max(b.2) < SLIGHT)
     };
-    let line = Axis { quantity: "frequency", range: 1e-4 * beyond..=highest };
+    let line = SampledRange { quantity: "frequency", range: 1e-4 * beyond..=highest };
     let points = line.sample(|omega| Some(value(omega)), close).ok()?;
     let ends = [value(0.0).1, Complex::new(plant.denominator()[0], 0.0)];
     let values = points.iter().filter_map(|(_, value)| Some(value.as_ref()?.1)).chain([ends[1]]);

@@ -1,7 +1,7 @@
 //! The program's formulas as definitions of Coq: the code that runs, evaluated over symbols, as the subject of proofs by a kernel.
 
 use super::CLAIMS;
-use super::checks::Single;
+use super::checks::SingleKernel;
 use crate::describing::{ClosedForm, DescribingFunction, bias_of_output};
 use crate::identify::fit::select::pairwise::relative_spread_percent;
 use crate::identify::iso::{amplitude_sensitivity, parameters};
@@ -21,8 +21,8 @@ const NOT_NEGATIVE: [f64; 2] = [0.0, f64::MAX];
 /// The power of two by which a band avoids overflow is 1 for these amplitudes; `kernel-band` proves that every power gives the same.
 const NEAR_ONE: [f64; 2] = [f64::MIN_POSITIVE, 1.5];
 
-const BIAS: Quantity = ("bias", ANY);
-const AMPLITUDE: Quantity = ("amplitude", POSITIVE);
+const BIAS: NamedRange = ("bias", ANY);
+const AMPLITUDE: NamedRange = ("amplitude", POSITIVE);
 
 /// Every formula, in the order of the claims: the text of `Formulas.v`.
 ///
@@ -53,7 +53,7 @@ Open Scope R_scope.
 ";
 
 /// The name of a quantity and its range.
-type Quantity = (&'static str, [f64; 2]);
+type NamedRange = (&'static str, [f64; 2]);
 
 /// Definitions, one a formula.
 #[derive(Default)]
@@ -64,7 +64,7 @@ impl Theory {
     fn member<C: PiecewiseLinear<Number = Expression>, const N: usize>(
         &mut self,
         name: &str,
-        quantities: [Quantity; N],
+        quantities: [NamedRange; N],
         made: fn(&[Expression]) -> Result<C, NonlinearityError>,
     ) {
         self.define(name, quantities, |at| {
@@ -79,10 +79,10 @@ impl Theory {
     fn define<const N: usize>(
         &mut self,
         name: &str,
-        quantities: [Quantity; N],
+        quantities: [NamedRange; N],
         gives: impl FnOnce([Expression; N]) -> Option<String>,
     ) {
-        let symbol = |(name, [from, to]): Quantity| {
+        let symbol = |(name, [from, to]): NamedRange| {
             Expression::symbol(name, name, Interval::new(from, to).unwrap_or(Interval::ENTIRE))
         };
         if let Some(term) = gives(quantities.map(symbol)) {
@@ -105,7 +105,7 @@ fn describing(df: DescribingFunction<Expression>) -> Option<String> {
 fn kernels(theory: &mut Theory) {
     let branches = [Branches::Both, Branches::Rising, Branches::Falling];
     let of = |kernel, bias, amplitude| {
-        describing(Single(kernel).describing_function(&Sinusoid::new(bias, amplitude).ok()?).ok()?)
+        describing(SingleKernel(kernel).describing_function(&Sinusoid::new(bias, amplitude).ok()?).ok()?)
     };
     let sided = branches.into_iter().flat_map(|on| [Side::Above, Side::Below].map(|side| (side, on)));
     for (side, branches) in sided {
@@ -161,8 +161,8 @@ fn term(kernel: Kernel<Expression>) -> String {
 
 /// Each member of the piecewise-linear catalogue as its list of kernels: its parameters, bias and amplitude.
 fn members(theory: &mut Theory) {
-    const LEVEL: Quantity = ("level", POSITIVE);
-    const SLOPE: Quantity = ("slope", POSITIVE);
+    const LEVEL: NamedRange = ("level", POSITIVE);
+    const SLOPE: NamedRange = ("slope", POSITIVE);
     const SMALL: [f64; 2] = [0.0, 1.0];
     const LARGE: [f64; 2] = [2.0, f64::MAX];
     theory.member("relay", [LEVEL, BIAS, AMPLITUDE], Relay::from_values);
@@ -237,8 +237,8 @@ fn identification(theory: &mut Theory) {
 
 /// The exact orbits of a drag axis.
 fn orbits(theory: &mut Theory) {
-    const G: Quantity = ("g", POSITIVE);
-    const MU: Quantity = ("mu", [-1.0, 1.0]);
+    const G: NamedRange = ("g", POSITIVE);
+    const MU: NamedRange = ("mu", [-1.0, 1.0]);
     theory.define("quadratic_half_cycle", [("y", ANY), ("gap", [0.0, 1.0]), ("ratio", POSITIVE)], |[y, gap, ratio]| {
         Some(orbit::quadratic_half_cycle(y, gap, ratio).coq())
     });

@@ -20,7 +20,7 @@ use crate::files::Files;
 use crate::identify::NORMAL_95;
 use crate::numeric::Interval;
 use crate::numeric::domain::About;
-use form::Form;
+use form::GainForm;
 
 /// PI or PID gains for a heater, a tank, an axis: from one record of its relay, thermostat or on-off control.
 ///
@@ -66,8 +66,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
     interval: Option<f64>,
     /// In which form the gains are printed
-    #[arg(long, value_enum, value_name = "FORM", default_value_t = Form::Parallel)]
-    form: Form,
+    #[arg(long, value_enum, value_name = "FORM", default_value_t = GainForm::Parallel)]
+    form: GainForm,
     /// Command at full power, of which a firmware's gains are shares [default: 1, 100 or 255, where it is the largest in the log]
     #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true)]
     full_power: Option<f64>,

@@ -53,7 +53,7 @@ fn check_file(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<
     }
     /// Of a proof of another kind.
     #[derive(serde::Deserialize)]
-    struct Kind {
+    struct CertificateKind {
         certificate: String,
     }
     let text = files::read(path)?;
@@ -70,7 +70,8 @@ fn check_file(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<
             proof => Ok(if shows(proof, claim.id, 0, output)? { Outcome::Done } else { Outcome::No }),
         };
     }
-    if matches!(serde_json::from_str(&text), Ok(Kind { certificate }) if certificate == OrbitCertificate::KIND) {
+    if matches!(serde_json::from_str(&text), Ok(CertificateKind { certificate }) if certificate == OrbitCertificate::KIND)
+    {
         let proof = text.parse::<OrbitCertificate>();
         return match proof.and_then(|proof| Ok((proof.check()?, proof))) {
             Ok((orbits, proof)) => {

@@ -48,8 +48,8 @@ pub(super) struct Arguments {
     #[arg(long, value_parser = number, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
     bias: f64,
     /// How it is found
-    #[arg(long, value_enum, default_value_t = Method::ClosedForm)]
-    method: Method,
+    #[arg(long, value_enum, default_value_t = DescribingMethod::ClosedForm)]
+    method: DescribingMethod,
     /// Lists every characteristic with its parameters, and does nothing else
     #[arg(long)]
     list: bool,
@@ -66,7 +66,7 @@ const DIGITS: usize = 6;
 
 #[derive(Clone, Copy, Debug, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
-enum Method {
+enum DescribingMethod {
     /// The formula
     ClosedForm,
     /// Adaptive quadrature of the output: an error estimate, no bound
@@ -101,11 +101,11 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     let amplitude = arguments.amplitude.unwrap_or(f64::NAN);
     let sweep = Sinusoid::new(arguments.bias, amplitude)?;
     let enclosed = match arguments.method {
-        Method::Certified => Some(enclose(entry, &values, arguments.bias, amplitude)?),
-        Method::ClosedForm | Method::Quadrature => None,
+        DescribingMethod::Certified => Some(enclose(entry, &values, arguments.bias, amplitude)?),
+        DescribingMethod::ClosedForm | DescribingMethod::Quadrature => None,
     };
     let DescribingFunction { f0, p, q } = match (arguments.method, &enclosed) {
-        (Method::ClosedForm, _) => characteristic.describing_function(&sweep)?,
+        (DescribingMethod::ClosedForm, _) => characteristic.describing_function(&sweep)?,
         (_, None) => by_quadrature(&*characteristic, &sweep)?,
         (_, Some(DescribingFunction { f0, p, q })) => {
             DescribingFunction { f0: f0.midpoint(), p: p.midpoint(), q: q.midpoint() }

@@ -14,13 +14,13 @@ use crate::plant::DragAxis;
 
 /// A parameter.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Known {
+pub(super) struct KnownParameter {
     pub(super) value: f64,
     /// `None` where it counts as exactly the value.
     pub(super) interval: Option<Interval>,
 }
 
-impl Known {
+impl KnownParameter {
     /// Its interval, or the value as a point interval.
     pub(super) fn range(&self) -> Interval {
         self.interval.unwrap_or(Interval::point(self.value))
@@ -30,7 +30,7 @@ impl Known {
 /// The parameters of an axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Model {
-    pub(super) axis: AxisModel<Known>,
+    pub(super) axis: AxisModel<KnownParameter>,
     /// How the coefficients of the drag vary together; `None` where their intervals count as independent.
     drag: Option<UncertainDrag>,
     /// Whether it is identified from a record.
@@ -52,7 +52,7 @@ const TIMES: [&str; 5] = ["memory_s", "lag_s", "ramp_s", "filter_s", "delay_s"];
 impl Model {
     /// An axis that is given.
     pub(super) fn given(axis: &DragAxis<f64>) -> Self {
-        let axis = AxisModel::from(axis).map(|value| Known { value, interval: None });
+        let axis = AxisModel::from(axis).map(|value| KnownParameter { value, interval: None });
         Self { axis, drag: None, identified: false, degrees: false, length: false }
     }
 
@@ -143,7 +143,7 @@ impl Model {
             let estimate = &reported[name];
             let Some(value) = number(estimate, "value")? else {
                 let missing = || wrong("alpha.value", &Value::Null, "a number");
-                return if name == "alpha" { Err(missing()) } else { Ok(Known::default()) };
+                return if name == "alpha" { Err(missing()) } else { Ok(KnownParameter::default()) };
             };
             // The practical interval, where there is one.
             let place = if estimate["combined"].is_null() { estimate } else { &estimate["combined"] };
@@ -157,9 +157,9 @@ impl Model {
                 }
                 None => None,
             };
-            Ok(Known { value, interval })
+            Ok(KnownParameter { value, interval })
         };
-        let mut parts = [Known::default(); NAMES.len()];
+        let mut parts = [KnownParameter::default(); NAMES.len()];
         for (place, name) in parts.iter_mut().zip(NAMES) {
             *place = part(name)?;
         }

@@ -44,7 +44,7 @@ impl Structure {
 #[cfg_attr(
     feature = "std",
     derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "Parts<T>", bound(deserialize = "T: Scalar + serde::Deserialize<'de>"))
+    serde(try_from = "GainsParts<T>", bound(deserialize = "T: Scalar + serde::Deserialize<'de>"))
 )]
 pub struct Gains<T> {
     structure: Structure,
@@ -57,7 +57,7 @@ pub struct Gains<T> {
 /// Gains as they are written, not yet checked.
 #[cfg(feature = "std")]
 #[derive(serde::Deserialize)]
-struct Parts<T> {
+struct GainsParts<T> {
     structure: Structure,
     proportional: T,
     integral: T,
@@ -66,10 +66,10 @@ struct Parts<T> {
 }
 
 #[cfg(feature = "std")]
-impl<T: Scalar> TryFrom<Parts<T>> for Gains<T> {
+impl<T: Scalar> TryFrom<GainsParts<T>> for Gains<T> {
     type Error = ControlError;
 
-    fn try_from(parts: Parts<T>) -> Result<Self, ControlError> {
+    fn try_from(parts: GainsParts<T>) -> Result<Self, ControlError> {
         Self::new(parts.structure, parts.proportional, parts.integral, parts.derivative, parts.filter_s)
     }
 }

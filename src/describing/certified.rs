@@ -50,7 +50,7 @@ pub fn certified(
     sweep: &Sinusoid<CellJet>,
 ) -> Result<Certified, DescribingError> {
     characteristic.admits(sweep)?;
-    let branches = Branches { characteristic, sweep };
+    let branches = BranchIntegrand { characteristic, sweep };
     let quarter = Interval::PI / Interval::two();
     let outputs = branches.outputs(Jet::constant(Interval::UNIT)).map(|output| output.value());
     if let Some(output) = outputs.into_iter().find(|output| !output.is_bounded()) {
@@ -78,12 +78,12 @@ pub fn certified(
 }
 
 /// Output on the rising branch, at the angle t, and on the falling one, at `pi - t`; t from `-pi/2` to `pi/2`.
-struct Branches<'a, C: ?Sized> {
+struct BranchIntegrand<'a, C: ?Sized> {
     characteristic: &'a C,
     sweep: &'a Sinusoid<CellJet>,
 }
 
-impl<C: Characteristic<Number = CellJet> + ?Sized> Branches<'_, C> {
+impl<C: Characteristic<Number = CellJet> + ?Sized> BranchIntegrand<'_, C> {
     fn outputs(&self, sine: CellJet) -> [CellJet; 2] {
         let x = self.sweep.bias() + self.sweep.amplitude() * sine;
         let output = |branch| self.characteristic.output(x, branch, self.sweep);
@@ -131,7 +131,7 @@ impl<C: Characteristic<Number = CellJet> + ?Sized> Branches<'_, C> {
     }
 }
 
-impl<C: Characteristic<Number = CellJet> + ?Sized> Integrand<3> for Branches<'_, C> {
+impl<C: Characteristic<Number = CellJet> + ?Sized> Integrand<3> for BranchIntegrand<'_, C> {
     fn range(&self, t: Interval) -> [Interval; 3] {
         self.weighted(Jet::constant(t)).map(|jet| jet.value())
     }

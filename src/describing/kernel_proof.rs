@@ -13,7 +13,7 @@ use crate::nonlinearity::{Branches, Sinusoid};
 use crate::numeric::special::Special;
 use crate::numeric::{Interval, Real};
 use crate::proof::branch_and_bound::{Subdivision, Visit, subdivide};
-use crate::proof::identity::{Series, magnitude, prove_zero_of_two};
+use crate::proof::identity::{IdentityJet, magnitude, prove_zero_of_two};
 use crate::proof::{Bound, Change, NotProved, Proved, Statement, Unchanged};
 
 /// Length of either end on which values are compared, in radians: beyond, `cos(phi)` and 1 are distinguishable.
@@ -68,7 +68,7 @@ pub fn prove_changed_band(change: &impl Change) -> Result<Vec<Proved<2>>, NotPro
     let band = Band(change);
     let pairs = BREAKPOINTS.into_iter().flat_map(|lower| BREAKPOINTS.map(|upper| [lower, upper]));
     let prove = |domain| {
-        prove_zero_of_two(|a, b| band.at([a, b]), |a: Series, b| band.at([a, b]), domain, FROM_THE_MIDDLE, BUDGET)
+        prove_zero_of_two(|a, b| band.at([a, b]), |a: IdentityJet, b| band.at([a, b]), domain, FROM_THE_MIDDLE, BUDGET)
     };
     pairs.map(prove).collect()
 }
@@ -225,7 +225,8 @@ impl<C: Change> Claimed<'_, C> {
 
     /// The integral of the derivatives' difference.
     fn between(&self, domain: Interval) -> Result<(f64, Subdivision<1>), NotProved<1>> {
-        let mismatch = |phi: Series| difference(self.value(phi).map(|part| part.derivative()), self.form.slope(phi));
+        let mismatch =
+            |phi: IdentityJet| difference(self.value(phi).map(|part| part.derivative()), self.form.slope(phi));
         let mut sum = Interval::ZERO;
         let found = subdivide([domain], BUDGET, |&[cell]| {
             let length = Interval::point(cell.upper()) - Interval::point(cell.lower());

@@ -29,7 +29,7 @@ pub struct RoundingBounds {
 
 /// Parameters, bias and amplitude, and what was proved over them: `F_0`, `P`, `Q` in double precision, then in single. No breakpoint comes
 /// near a turning point of the input, where values are ill conditioned.
-type Row = (&'static str, &'static [(f64, f64)], (f64, f64), (f64, f64), [f64; 3], [f64; 3]);
+type RoundingRow = (&'static str, &'static [(f64, f64)], (f64, f64), (f64, f64), [f64; 3], [f64; 3]);
 
 const GAIN: (f64, f64) = (0.5, 2.0);
 const QUARTER: (f64, f64) = (-0.25, 0.25);
@@ -46,7 +46,7 @@ const POLYNOMIAL: [(f64, f64); 10] =
 const POINTS: [(f64, f64); 10] =
     [(0.5, 1.0), (0.5, 1.0), one(-1.0), one(-0.75), one(-0.25), one(0.0), one(0.25), one(0.0), one(1.0), one(1.25)];
 
-const PROVED: [Row; 20] = [
+const PROVED: [RoundingRow; 20] = [
     ("relay", &[GAIN], HALF, WIDE, [2.2e-15, 8.6e-15, 0.0], [8.6e-7, 4.4e-6, 0.0]),
     ("relay-dead-zone", &[GAIN, (0.25, 0.5)], QUARTER, WIDE, [2e-15, 3.7e-15, 0.0], [8.6e-7, 1.9e-6, 0.0]),
     (
@@ -97,7 +97,7 @@ const PROVED: [Row; 20] = [
     ("backlash", &[GAIN, (0.125, 0.25)], QUARTER, (1.0, 2.0), [2.8e-15, 4.4e-15, 9.8e-16], [1.5e-6, 2.3e-6, 4.8e-7]),
 ];
 
-fn row(entry: &Entry) -> Option<&'static Row> {
+fn row(entry: &Entry) -> Option<&'static RoundingRow> {
     PROVED.iter().find(|(name, ..)| *name == entry.name)
 }
 
@@ -161,25 +161,25 @@ impl Entry {
 }
 
 /// A box, and its bounds.
-struct Part {
+struct BoundedBox {
     at: Vec<Interval>,
     errors: [f64; 3],
     /// The largest error against the others' scale.
     rank: f64,
 }
 
-impl PartialEq for Part {
+impl PartialEq for BoundedBox {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
-impl Eq for Part {}
-impl PartialOrd for Part {
+impl Eq for BoundedBox {}
+impl PartialOrd for BoundedBox {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
-impl Ord for Part {
+impl Ord for BoundedBox {
     fn cmp(&self, other: &Self) -> Ordering {
         self.rank.total_cmp(&other.rank)
     }
@@ -191,7 +191,7 @@ fn worst<F: Format>(entry: &Entry, domain: &[Interval]) -> DescribingFunction<f6
     let middle: Vec<_> = domain.iter().map(|side| Interval::point(side.midpoint())).collect();
     let scale = errors::<F>(entry, &middle).map(|error| error.max(F::UNIT * 1e-3));
     let rank = |errors: &[f64; 3]| errors.iter().zip(scale).map(|(error, scale)| error / scale).fold(0.0, f64::max);
-    let mut open = BinaryHeap::from([Part { at: domain.to_vec(), errors: whole, rank: rank(&whole) }]);
+    let mut open = BinaryHeap::from([BoundedBox { at: domain.to_vec(), errors: whole, rank: rank(&whole) }]);
     while open.len() < BOXES {
         let Some(part) = open.pop() else { break };
         let share = |k: &usize| if domain[*k].is_point() { 0.0 } else { part.at[*k].width() / domain[*k].width() };
@@ -201,7 +201,7 @@ fn worst<F: Format>(entry: &Entry, domain: &[Interval]) -> DescribingFunction<f6
             let mut at = part.at.clone();
             at[side] = half;
             let errors = errors::<F>(entry, &at);
-            open.push(Part { at, errors, rank: rank(&errors) });
+            open.push(BoundedBox { at, errors, rank: rank(&errors) });
         }
     }
     let [f0, p, q] =

@@ -52,7 +52,7 @@ impl Entry {
             while done < size {
                 let rest = from + done..from + size;
                 let columns = [&mut f0[rest.clone()], &mut p[rest.clone()], &mut q[rest]];
-                let filled = |group: &dyn Group| group.fill(&biases[done..size], &amplitudes[done..size], columns);
+                let filled = |group: &dyn SideBySide| group.fill(&biases[done..size], &amplitudes[done..size], columns);
                 done += together.as_deref().map_or(0, filled);
                 // A group with a refused sweep is evaluated sweep by sweep, and so is the remainder.
                 let alone = done..size.min(done + Lanes::COUNT);
@@ -71,12 +71,12 @@ impl Entry {
 const BLOCK: usize = 64;
 
 /// A characteristic over several sweeps side by side.
-trait Group {
+trait SideBySide {
     /// Fills the columns up to the first sweeps that are refused, or to the last that are too few; returns how many are filled.
     fn fill(&self, biases: &[f64], amplitudes: &[f64], columns: [&mut [f64]; 3]) -> usize;
 }
 
-impl<C: PiecewiseLinear<Number = Lanes>> Group for C {
+impl<C: PiecewiseLinear<Number = Lanes>> SideBySide for C {
     fn fill(&self, biases: &[f64], amplitudes: &[f64], [f0, p, q]: [&mut [f64]; 3]) -> usize {
         let sweeps = biases.as_chunks().0.iter().zip(amplitudes.as_chunks().0);
         let columns = f0.as_chunks_mut().0.iter_mut().zip(p.as_chunks_mut().0).zip(q.as_chunks_mut().0);
@@ -101,7 +101,7 @@ impl<C: PiecewiseLinear<Number = Lanes>> Group for C {
 macro_rules! in_lanes {
     ($($type:ident),+ $(,)?) => {
         impl Entry {
-            fn in_lanes(&self, values: &[f64]) -> Option<Box<dyn Group>> {
+            fn in_lanes(&self, values: &[f64]) -> Option<Box<dyn SideBySide>> {
                 let values: Vec<_> = values.iter().map(|&value| Lanes::from_f64(value)).collect();
                 $(
                     if self.name == <$type<Lanes> as Catalogued<Lanes>>::NAME {

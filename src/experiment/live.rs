@@ -3,7 +3,7 @@
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
-use super::simulation::Motion;
+use super::simulation::SimulatedMotion;
 use super::{ExperimentError, Sensor};
 use crate::numeric::domain;
 use crate::plant::{DragAxis, State};
@@ -25,7 +25,7 @@ use crate::plant::{DragAxis, State};
 /// ```
 #[derive(Clone, Debug)]
 pub struct LiveVehicle {
-    motion: Motion,
+    motion: SimulatedMotion,
     sensor: Sensor,
     delay_s: f64,
     rate_hz: f64,
@@ -42,7 +42,7 @@ impl LiveVehicle {
         domain::positive("rate", rate_hz, "Hz")?;
         let sensor = sensor.checked()?;
         let delay_s = axis.delay_s() + sensor.delay_s;
-        let motion = Motion::new(axis, State { position: 0.0, velocity: 0.0 }, 0.0);
+        let motion = SimulatedMotion::new(axis, State { position: 0.0, velocity: 0.0 }, 0.0);
         Ok(Self { motion, sensor, delay_s, rate_hz, random: Pcg64Mcg::seed_from_u64(seed), samples: 0 })
     }
 

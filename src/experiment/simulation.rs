@@ -105,7 +105,7 @@ impl SimulatedExperiment {
         domain::require("number of samples", samples, "", Limit::AtMost(Self::MOST_SAMPLES), remedy)?;
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);
         let mut relay = RelayState::new(self.relay, true);
-        let mut motion = Motion::new(self.axis, self.start, relay.output());
+        let mut motion = SimulatedMotion::new(self.axis, self.start, relay.output());
         if self.held {
             motion.seen_s = f64::INFINITY;
         } else {
@@ -135,7 +135,7 @@ impl SimulatedExperiment {
     }
 
     /// Switches a relay that watches all the time, up to the time `until`.
-    fn watch(&self, relay: &mut RelayState<f64>, motion: &mut Motion, until: f64) {
+    fn watch(&self, relay: &mut RelayState<f64>, motion: &mut SimulatedMotion, until: f64) {
         let level = self.relay.half_width();
         loop {
             // The positive command lasts until x rises past the level, the negative one until it falls past it.
@@ -168,7 +168,7 @@ impl Sensor {
 
 /// The motion so far, and the commands on their way.
 #[derive(Clone, Debug)]
-pub(super) struct Motion {
+pub(super) struct SimulatedMotion {
     axis: DragAxis<f64>,
     /// Beginnings of the stretches with constant command: time, state, command. The last has no end yet.
     stretches: VecDeque<(f64, State<f64>, f64)>,
@@ -176,7 +176,7 @@ pub(super) struct Motion {
     pub(super) seen_s: f64,
 }
 
-impl Motion {
+impl SimulatedMotion {
     pub(super) fn new(axis: DragAxis<f64>, start: State<f64>, command: f64) -> Self {
         Self { axis, stretches: VecDeque::from([(0.0, start, command)]), seen_s: 0.0 }
     }

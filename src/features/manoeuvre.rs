@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::orders::{NEAR_LEVEL, Passage, SAME_RATE};
+use super::orders::{LevelPassage, NEAR_LEVEL, SAME_RATE};
 use crate::experiment::Record;
 
 /// The fewest changes of side of two full cycles.
@@ -119,7 +119,7 @@ fn held(record: &Record, near: f64) -> f64 {
     for run in held.chunk_by(|one, next| one == next) {
         let end = begin + run.len();
         if !run[0] {
-            let passage = Passage { time_s: &time_s[begin..end], input: &input[begin..end] };
+            let passage = LevelPassage { time_s: &time_s[begin..end], input: &input[begin..end] };
             passages.push((
                 run.len(),
                 if run.len() > 1 { passage.line(input[begin], near).map(|line| line.rate) } else { None },

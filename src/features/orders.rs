@@ -24,7 +24,7 @@ pub(super) struct Orders {
 }
 
 /// A passage of the command between its two levels.
-pub(super) struct Passage<'a> {
+pub(super) struct LevelPassage<'a> {
     /// Samples between the levels.
     pub(super) time_s: &'a [f64],
     pub(super) input: &'a [f64],
@@ -38,7 +38,7 @@ pub(super) struct Line {
     begin_s: f64,
 }
 
-impl Passage<'_> {
+impl LevelPassage<'_> {
     /// The line through it from a level; `None` if a sample is farther than `near` from it.
     #[allow(clippy::cast_precision_loss, reason = "a count of samples")]
     pub(super) fn line(&self, level: f64, near: f64) -> Option<Line> {
@@ -102,7 +102,8 @@ fn moved(record: &Record, levels: &[Option<bool>], (low, high): (f64, f64)) -> O
                     return None;
                 }
                 if let Some(before) = before.filter(|_| run.len() > 1) {
-                    let passage = Passage { time_s: &record.time_s()[begin..end], input: &record.input()[begin..end] };
+                    let passage =
+                        LevelPassage { time_s: &record.time_s()[begin..end], input: &record.input()[begin..end] };
                     let line = passage.line(if before { high } else { low }, NEAR_LEVEL * (high - low));
                     if next.is_some() {
                         rates.push(line.as_ref()?.rate);

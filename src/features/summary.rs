@@ -40,12 +40,12 @@ pub struct Features<S> {
 
 /// Welford's recurrence.
 #[derive(Clone, Copy, Debug)]
-struct Moments<S> {
+struct WelfordMoments<S> {
     mean: S,
     squares: S,
 }
 
-impl<S: Scalar> Moments<S> {
+impl<S: Scalar> WelfordMoments<S> {
     const fn new(zero: S) -> Self {
         Self { mean: zero, squares: zero }
     }
@@ -74,23 +74,23 @@ pub struct Summary<S> {
     previous: [S; 2],
     /// Amplitude and middle of the first steady cycle, once there was one.
     first: [S; 2],
-    run: Run<S>,
+    run: MonotoneRun<S>,
     /// Amplitude, bias, reference, period, level, time positive, time negative.
-    moments: [Moments<S>; 7],
+    moments: [WelfordMoments<S>; 7],
     /// Sums for the slopes of ln(amplitude) and of the middle over the cycle's number.
     trends: [Trend<S>; 2],
 }
 
 /// Successive start-up cycles whose amplitude changes one way, and no less each time.
 #[derive(Clone, Copy, Debug)]
-struct Run<S> {
+struct MonotoneRun<S> {
     changes: u32,
     /// Logarithm of the last cycle's amplitude over that of the one before, and over that of the first.
     last: S,
     total: S,
 }
 
-impl<S: Scalar> Run<S> {
+impl<S: Scalar> MonotoneRun<S> {
     /// Against the change before: less, and the oscillation settles.
     const KEPT: f64 = 0.7;
     /// Fewest changes that make a run.
@@ -153,8 +153,8 @@ impl<S: Scalar> Summary<S> {
             start_up: 0,
             previous: [zero; 2],
             first: [zero; 2],
-            run: Run { changes: 0, last: zero, total: zero },
-            moments: [Moments::new(zero); 7],
+            run: MonotoneRun { changes: 0, last: zero, total: zero },
+            moments: [WelfordMoments::new(zero); 7],
             trends: [trend; 2],
         }
     }
@@ -215,7 +215,7 @@ impl<S: Scalar> Summary<S> {
     /// [`FeatureError::OutOfDomain`] where squares leave the range of the arithmetic.
     pub fn features(&self) -> Result<Features<S>, FeatureError> {
         if self.cycles < Self::FEWEST_CYCLES {
-            if self.run.changes >= Run::<S>::FEWEST {
+            if self.run.changes >= MonotoneRun::<S>::FEWEST {
                 return Err(trend(self.run.total));
             }
             let (cycles, start_up) = (self.cycles, self.start_up);

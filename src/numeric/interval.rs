@@ -219,7 +219,7 @@ impl Interval {
         const SIZES: core::ops::RangeInclusive<f64> = 1e-270..=1e300;
         const UNDERFLOW: f64 = 1e-300;
         let smaller = |a: f64, b: f64| if b < a { b } else { a };
-        let (mut size, mut lower, mut minus_upper) = (0.0, Sum::default(), Sum::default());
+        let (mut size, mut lower, mut minus_upper) = (0.0, RoundedSum::default(), RoundedSum::default());
         for (a, b) in pairs.clone() {
             let [p, q, r, s] = [a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi];
             lower.add(smaller(smaller(p, q), smaller(r, s)));
@@ -256,13 +256,13 @@ impl Interval {
 
 /// A sum of rounded numbers.
 #[derive(Clone, Copy, Default)]
-struct Sum {
+struct RoundedSum {
     nearest: f64,
     /// Of absolute values of the numbers and of the partial sums: each was rounded by half an epsilon of it at most.
     rounded: f64,
 }
 
-impl Sum {
+impl RoundedSum {
     #[inline]
     fn add(&mut self, term: f64) {
         self.nearest += term;

@@ -39,9 +39,10 @@ pub struct Quadrature {
 /// assert!((q.value - (1f64.exp() - 1.0)).abs() < 1e-14);
 /// ```
 pub fn integrate(mut f: impl FnMut(f64) -> f64, from: f64, to: f64, tolerance: f64, cells: usize) -> Quadrature {
-    let first = Cell { estimate: f64::INFINITY, ..Cell::new(&mut f, from, to) };
+    let first = Panel { estimate: f64::INFINITY, ..Panel::new(&mut f, from, to) };
     let mut heap = std::collections::BinaryHeap::from([first]);
-    let total = |heap: &std::collections::BinaryHeap<Cell>, part: fn(&Cell) -> f64| heap.iter().map(part).sum::<f64>();
+    let total =
+        |heap: &std::collections::BinaryHeap<Panel>, part: fn(&Panel) -> f64| heap.iter().map(part).sum::<f64>();
     loop {
         let (estimate, magnitude) = (total(&heap, |cell| cell.estimate), total(&heap, |cell| cell.magnitude));
         if estimate <= tolerance * magnitude || heap.len() >= cells {
@@ -53,10 +54,10 @@ pub fn integrate(mut f: impl FnMut(f64) -> f64, from: f64, to: f64, tolerance: f
             heap.push(worst);
             break;
         }
-        let halves = [Cell::new(&mut f, worst.from, middle), Cell::new(&mut f, middle, worst.to)];
+        let halves = [Panel::new(&mut f, worst.from, middle), Panel::new(&mut f, middle, worst.to)];
         // The two rules can agree by chance: `|I_left + I_right - I|` is an independent estimate, far above the halves' own error.
         let change = (halves[0].value + halves[1].value - worst.value).abs();
-        heap.extend(halves.map(|half| Cell { estimate: half.estimate.max(CARRIED * change), ..half }));
+        heap.extend(halves.map(|half| Panel { estimate: half.estimate.max(CARRIED * change), ..half }));
     }
     Quadrature {
         value: total(&heap, |cell| cell.value),
@@ -67,7 +68,7 @@ pub fn integrate(mut f: impl FnMut(f64) -> f64, from: f64, to: f64, tolerance: f
 }
 
 #[derive(Clone, Copy, PartialEq)]
-struct Cell {
+struct Panel {
     from: f64,
     to: f64,
     value: f64,
@@ -75,7 +76,7 @@ struct Cell {
     magnitude: f64,
 }
 
-impl Cell {
+impl Panel {
     fn new(f: &mut impl FnMut(f64) -> f64, from: f64, to: f64) -> Self {
         let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
         let (mut kronrod, mut gauss, mut magnitude) = (0.0, 0.0, 0.0);
@@ -95,13 +96,13 @@ impl Cell {
     }
 }
 
-impl Eq for Cell {}
-impl Ord for Cell {
+impl Eq for Panel {}
+impl Ord for Panel {
     fn cmp(&self, other: &Self) -> core::cmp::Ordering {
         self.estimate.total_cmp(&other.estimate)
     }
 }
-impl PartialOrd for Cell {
+impl PartialOrd for Panel {
     fn partial_cmp(&self, other: &Self) -> Option<core::cmp::Ordering> {
         Some(self.cmp(other))
     }

@@ -5,7 +5,7 @@ use crate::numeric::Scalar;
 
 /// The last sample, and the state from those before.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Sensor<T> {
+pub(super) struct SensorState<T> {
     pub(super) time_s: T,
     pub(super) reading: T,
     /// The coordinate: for a heading without jumps, for a speed its integral.
@@ -14,7 +14,7 @@ pub(super) struct Sensor<T> {
     pub(super) changed_s: T,
 }
 
-impl<T: Scalar> Sensor<T> {
+impl<T: Scalar> SensorState<T> {
     /// The first sample; a heading starts within half a turn of the reference.
     pub(super) fn first(protocol: &Protocol<T>, reading: T, time_s: T) -> Result<Self, Fault> {
         finite("reading", reading)?;

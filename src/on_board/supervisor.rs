@@ -1,6 +1,6 @@
 //! The state machine: relay, time-outs, attempts, faults. It receives the verdicts on cycles.
 
-use super::sensor::Sensor;
+use super::sensor::SensorState;
 use super::{Fault, Protocol};
 use crate::experiment::RelayState;
 use crate::features::LOST;
@@ -64,7 +64,7 @@ pub(crate) trait Observer<T> {
 
 /// Why an attempt failed.
 #[derive(Clone, Copy, PartialEq)]
-enum Failure {
+enum AttemptFailure {
     NoSwitching,
     NotConverged,
     Condition40,
@@ -90,7 +90,7 @@ pub(crate) struct Supervisor<T> {
     /// Whether the relay gives its upper level.
     high: bool,
     /// Of use once there was a sample.
-    sensor: Sensor<T>,
+    sensor: SensorState<T>,
     begun: bool,
     started_s: T,
     /// Last switching, or beginning of the attempt.
@@ -120,7 +120,7 @@ impl<T: Scalar> Supervisor<T> {
             phase: Phase::Running,
             relay,
             high: false,
-            sensor: Sensor { time_s: zero, reading: zero, position: zero, changed_s: zero },
+            sensor: SensorState { time_s: zero, reading: zero, position: zero, changed_s: zero },
             begun: false,
             started_s: zero,
             switched_s: zero,
@@ -301,7 +301,7 @@ impl<T: Scalar> Supervisor<T> {
     /// Takes the first sample; the coordinate.
     #[cold]
     fn begin(&mut self, reading: T, time_s: T) -> Result<T, Fault> {
-        let sensor = Sensor::first(&self.protocol, reading, time_s)?;
+        let sensor = SensorState::first(&self.protocol, reading, time_s)?;
         let position = sensor.position();
         (self.started_s, self.switched_s) = (time_s, time_s);
         (self.farthest, self.anchor, self.moved_s) = (position, position, time_s);
@@ -318,21 +318,21 @@ impl<T: Scalar> Supervisor<T> {
         let moves = self.moves(position, time_s)?;
         let command = self.switch(position, time_s);
         match observer.sample(&self.protocol, time_s, position, command) {
-            _ if self.early >= MOST_EARLY => self.retry(Failure::Noise, time_s, observer),
+            _ if self.early >= MOST_EARLY => self.retry(AttemptFailure::Noise, time_s, observer),
             Observation::Steady => {
                 self.phase = Phase::Done;
                 Ok(())
             }
-            Observation::Condition40 => self.retry(Failure::Condition40, time_s, observer),
+            Observation::Condition40 => self.retry(AttemptFailure::Condition40, time_s, observer),
             Observation::Unsteady => {
                 self.cycles = self.cycles.saturating_add(1);
                 if self.cycles < self.protocol.most_cycles {
                     return Ok(());
                 }
-                self.retry(Failure::NotConverged, time_s, observer)
+                self.retry(AttemptFailure::NotConverged, time_s, observer)
             }
             Observation::Between if moves && time_s - self.switched_s > self.patience_s() => {
-                self.retry(Failure::NoSwitching, time_s, observer)
+                self.retry(AttemptFailure::NoSwitching, time_s, observer)
             }
             Observation::Between => Ok(()),
         }
@@ -344,30 +344,30 @@ impl<T: Scalar> Supervisor<T> {
     /// hysteresis makes the oscillation larger against it. Cycles that differ, and noise, call for a wider hysteresis:
     /// against noise no level is raised, and for want of a switching only at a sample that shows motion since the last.
     #[cold]
-    fn retry(&mut self, failure: Failure, time_s: T, observer: &mut impl Observer<T>) -> Result<(), Fault> {
+    fn retry(&mut self, failure: AttemptFailure, time_s: T, observer: &mut impl Observer<T>) -> Result<(), Fault> {
         let failure = match failure {
-            Failure::NoSwitching | Failure::Condition40 if self.early > 0 => Failure::Noise,
+            AttemptFailure::NoSwitching | AttemptFailure::Condition40 if self.early > 0 => AttemptFailure::Noise,
             other => other,
         };
         let (factor, largest) = (self.protocol.factor, self.protocol.largest_level());
         let (relay_level, half_width) = (self.relay_level(), self.half_width());
         let next = match failure {
-            Failure::NoSwitching | Failure::Condition40 if relay_level < largest => {
+            AttemptFailure::NoSwitching | AttemptFailure::Condition40 if relay_level < largest => {
                 Some(((relay_level * factor).min(largest), half_width))
             }
-            Failure::NoSwitching => None,
-            Failure::Condition40 => Some((relay_level, half_width / factor)),
-            Failure::NotConverged | Failure::Noise => {
+            AttemptFailure::NoSwitching => None,
+            AttemptFailure::Condition40 => Some((relay_level, half_width / factor)),
+            AttemptFailure::NotConverged | AttemptFailure::Noise => {
                 Some((relay_level, half_width * factor)).filter(|(_, width)| *width < self.protocol.largest_excursion)
             }
         };
         let Some((level, width)) = next.filter(|_| self.attempt < self.protocol.attempts) else {
             let (relay_level, half_width) = (relay_level.value(), half_width.value());
             return Err(match failure {
-                Failure::NoSwitching => Fault::NoOscillation { relay_level },
-                Failure::NotConverged => Fault::NotConverged { half_width },
-                Failure::Condition40 => Fault::Condition40 { relay_level, half_width },
-                Failure::Noise => Fault::Noise { half_width, dwell_s: self.protocol.dwell_s.value() },
+                AttemptFailure::NoSwitching => Fault::NoOscillation { relay_level },
+                AttemptFailure::NotConverged => Fault::NotConverged { half_width },
+                AttemptFailure::Condition40 => Fault::Condition40 { relay_level, half_width },
+                AttemptFailure::Noise => Fault::Noise { half_width, dwell_s: self.protocol.dwell_s.value() },
             });
         };
         self.relay =

@@ -77,8 +77,8 @@ pub fn audit(table: &PrintedTable, regenerated: &Table4) -> Result<Vec<Group>, P
     let offset = regenerated.level_offset;
     let raise = move |o: &mut Oscillation<Interval>| o.relay_level += Interval::point(offset);
     let center = |o: &mut Oscillation<Interval>| o.bias = Interval::ZERO;
-    let rows = |name: &str, note: &str, change: Change, value: Value, parameter: Parameter| {
-        Rows { table, regenerated, change, value, parameter }.group(name, note)
+    let rows = |name: &str, note: &str, change: InputChange, value: Value, parameter: PickedParameter| {
+        RecomputedColumn { table, regenerated, change, value, parameter }.group(name, note)
     };
     let mut groups = vec![
         rows("alpha", "printed over computed depends on the relay level alone", &|_| (), &|row| row.recomputed, ALPHA)?,
@@ -104,24 +104,24 @@ pub fn audit(table: &PrintedTable, regenerated: &Table4) -> Result<Vec<Group>, P
 }
 
 /// A parameter's name and how to pick it.
-type Parameter = (&'static str, fn(&Yaw<f64>) -> f64, fn(&Yaw<Interval>) -> Interval);
-type Change<'a> = &'a dyn Fn(&mut Oscillation<Interval>);
+type PickedParameter = (&'static str, fn(&Yaw<f64>) -> f64, fn(&Yaw<Interval>) -> Interval);
+type InputChange<'a> = &'a dyn Fn(&mut Oscillation<Interval>);
 type Value<'a> = &'a dyn Fn(&Row) -> Yaw<f64>;
 
-const ALPHA: Parameter = ("alpha", |p| p.alpha, |p| p.alpha);
-const BETA_R: Parameter = ("beta_r", |p| p.beta_r, |p| p.beta_r);
-const BETA_RR: Parameter = ("beta_rr", |p| p.beta_rr, |p| p.beta_rr);
+const ALPHA: PickedParameter = ("alpha", |p| p.alpha, |p| p.alpha);
+const BETA_R: PickedParameter = ("beta_r", |p| p.beta_r, |p| p.beta_r);
+const BETA_RR: PickedParameter = ("beta_rr", |p| p.beta_rr, |p| p.beta_rr);
 
 /// A column of Table 4, recomputed after a change to the oscillation, with its value at the printed inputs.
-struct Rows<'a> {
+struct RecomputedColumn<'a> {
     table: &'a PrintedTable,
     regenerated: &'a Table4,
-    change: Change<'a>,
+    change: InputChange<'a>,
     value: Value<'a>,
-    parameter: Parameter,
+    parameter: PickedParameter,
 }
 
-impl Rows<'_> {
+impl RecomputedColumn<'_> {
     fn group(&self, name: &str, note: &str) -> Result<Group, PaperError> {
         let (parameter, value_of, interval_of) = self.parameter;
         let intervals = self.table.printed_intervals();

@@ -32,12 +32,12 @@ const RESOLUTION: f64 = 1.0 / 512.0;
 const BUDGETS: [usize; 3] = [20_000, 400, 200];
 /// Largest growth of the half-units looked at, and the ratio of a bracket that is narrow enough.
 const GROWTH: [f64; 2] = [256.0, 1.15];
-/// Speed in deg/s of which [`Quantity::Drag`] is the drag, over the speed.
+/// Speed in deg/s of which [`RowQuantity::Drag`] is the drag, over the speed.
 const SHARE_AT_DEG_S: f64 = 50.0;
 
 /// Quantity computed from a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Quantity {
+enum RowQuantity {
     Alpha,
     LinearDrag,
     QuadraticDrag,
@@ -51,7 +51,7 @@ enum Quantity {
 /// x_a*, X_m, x_0, T, delay, share.
 type Variables<T> = [T; 6];
 
-/// Each [`Quantity`] per unit of the relay level, in the table's units.
+/// Each [`RowQuantity`] per unit of the relay level, in the table's units.
 fn quantities<T: Real>(at: Variables<T>) -> Result<[T; 6], IdentifyError> {
     let [switch_level, amplitude, bias, period_s, delay_s, share] = at;
     let relay_level = T::one();
@@ -63,7 +63,7 @@ fn quantities<T: Real>(at: Variables<T>) -> Result<[T; 6], IdentifyError> {
     Ok([alpha, linear, quadratic, drag, linear / alpha, drag / alpha])
 }
 
-impl Quantity {
+impl RowQuantity {
     fn has_level(self) -> bool {
         !matches!(self, Self::LinearDragOverAlpha | Self::DragOverAlpha)
     }
@@ -113,16 +113,16 @@ type Shared = [Interval; 3];
 
 /// A question to all rows.
 #[derive(Clone, Copy, Debug)]
-struct Case {
+struct ConsistencyQuestion {
     question: &'static str,
     allowed: &'static str,
-    quantities: &'static [Quantity],
+    quantities: &'static [RowQuantity],
     common: Common,
     domain: [[f64; 2]; 3],
 }
 
 /// A row with its half-units grown.
-struct Row {
+struct WidenedRow {
     experiment: u32,
     level: Interval,
     readings: [Interval; 4],
@@ -130,24 +130,24 @@ struct Row {
 }
 
 /// The rows, from both ends of the table inwards: rows that differ most come first.
-fn rows(table: &PrintedTable, growth: f64) -> Vec<Row> {
+fn rows(table: &PrintedTable, growth: f64) -> Vec<WidenedRow> {
     let row = |experiment| {
         let read = table.within(experiment, growth);
         let found = oscillation(&read);
         let readings = [found.switch_level, found.amplitude, found.bias, found.period_s];
-        Row { experiment: experiment.number, level: found.relay_level, readings, printed: printed(&read) }
+        WidenedRow { experiment: experiment.number, level: found.relay_level, readings, printed: printed(&read) }
     };
     let all = table.experiments();
     (0..all.len()).map(|i| row(&all[if i % 2 == 0 { i / 2 } else { all.len() - 1 - i / 2 }])).collect()
 }
 
-impl Case {
+impl ConsistencyQuestion {
     fn whole(&self) -> Shared {
         self.domain.map(between)
     }
 
     /// Whether the rows' enclosures meet on a box.
-    fn met(&self, rows: &[Row], at: &Shared) -> bool {
+    fn met(&self, rows: &[WidenedRow], at: &Shared) -> bool {
         let mut common = [match self.common {
             Common::Factor(range) => between(range),
             Common::Vehicle => between([0.0, f64::MAX]),
@@ -156,7 +156,7 @@ impl Case {
     }
 
     /// Intersects the common values with those that a row admits; `false` if the intersection is empty.
-    fn narrow(&self, row: &Row, &[delay_s, offset, share]: &Shared, common: &mut [Interval; 3]) -> bool {
+    fn narrow(&self, row: &WidenedRow, &[delay_s, offset, share]: &Shared, common: &mut [Interval; 3]) -> bool {
         let [switch_level, amplitude, bias, period_s] = row.readings;
         let at = [switch_level, amplitude, bias, period_s, delay_s, share];
         let over = match quantities(Gradient::variables(at)) {
@@ -179,7 +179,7 @@ impl Case {
     }
 
     /// The hull of the remaining boxes, `None` if none remain; and whether the search was completed.
-    fn left(&self, rows: &[Row]) -> (Option<Shared>, bool) {
+    fn left(&self, rows: &[WidenedRow]) -> (Option<Shared>, bool) {
         let (whole, mut hull) = (self.whole(), None);
         let found = subdivide(whole, BUDGETS[0], |at| {
             let within = |hull: &Shared| at.iter().zip(hull).all(|(side, hull)| side.is_subset_of(*hull));
@@ -197,7 +197,7 @@ impl Case {
     }
 
     /// Whether no box remains; `false` where enclosures meet at a point, `None` where the budget was spent.
-    fn refuted(&self, rows: &[Row], budget: usize) -> Option<bool> {
+    fn refuted(&self, rows: &[WidenedRow], budget: usize) -> Option<bool> {
         let mut met = false;
         let found = subdivide(self.whole(), budget, |at| {
             let middle = at.map(|side| Interval::point(side.midpoint()));
@@ -237,7 +237,7 @@ impl Case {
     /// Rows that are refuted by themselves, none of which the search can spare, with half-units grown so much; none where the
     /// search is too long.
     fn contradicting(&self, table: &PrintedTable, growth: f64) -> Vec<u32> {
-        let refuted = |rows: &[Row]| self.refuted(rows, BUDGETS[2]) == Some(true);
+        let refuted = |rows: &[WidenedRow]| self.refuted(rows, BUDGETS[2]) == Some(true);
         let mut kept = rows(table, growth);
         if !refuted(&kept) {
             return Vec::new();
@@ -315,10 +315,10 @@ pub struct Consistency {
 /// Boxes: delay 0 to 0.6 s, offset -1 to 2 (1e-2 N m), factor 0.5 to 2 where one is allowed, drag coefficients of zero or more.
 #[must_use]
 pub fn consistency(table: &PrintedTable) -> Vec<Consistency> {
-    use Quantity::{Alpha, Drag, DragOverAlpha, LinearDrag, LinearDragOverAlpha, QuadraticDrag};
+    use RowQuantity::{Alpha, Drag, DragOverAlpha, LinearDrag, LinearDragOverAlpha, QuadraticDrag};
     const OFFSET: &str = "offset";
     const SCALED: &str = "offset and factor";
-    let printed = |question, allowed, quantities, factors| Case {
+    let printed = |question, allowed, quantities, factors| ConsistencyQuestion {
         question,
         allowed,
         quantities,
@@ -326,7 +326,7 @@ pub fn consistency(table: &PrintedTable) -> Vec<Consistency> {
         domain: [DELAY_S, LEVEL_OFFSET, [0.0; 2]],
     };
     let each = printed("alpha and beta_r", "any, in each experiment", &[LinearDragOverAlpha][..], [1.0; 2]);
-    let vehicle = |question, share| Case {
+    let vehicle = |question, share| ConsistencyQuestion {
         question,
         allowed: SCALED,
         quantities: &[Alpha, Drag, DragOverAlpha],
@@ -340,7 +340,7 @@ pub fn consistency(table: &PrintedTable) -> Vec<Consistency> {
         printed("beta_rr", OFFSET, &[QuadraticDrag], [1.0; 2]),
         printed("beta_r and beta_rr", SCALED, &[LinearDrag, QuadraticDrag], LEVEL_FACTOR),
         printed("alpha, beta_r and beta_rr", SCALED, &[Alpha, LinearDrag, QuadraticDrag], LEVEL_FACTOR),
-        Case { domain: [DELAY_S, [0.0; 2], [0.0; 2]], ..each },
+        ConsistencyQuestion { domain: [DELAY_S, [0.0; 2], [0.0; 2]], ..each },
         vehicle("one vehicle, linear drag", [0.0; 2]),
         vehicle("one vehicle, quadratic drag", [1.0; 2]),
         vehicle("one vehicle, mixed drag", [0.0, 1.0]),

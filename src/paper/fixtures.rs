@@ -114,14 +114,14 @@ pub fn read_statements(text: &str) -> Result<Vec<Statement>, PaperError> {
     })
 }
 
-struct Row<'a> {
+struct CsvRow<'a> {
     fixture: &'static str,
     line: u64,
     headers: &'a StringRecord,
     cells: &'a StringRecord,
 }
 
-impl Row<'_> {
+impl CsvRow<'_> {
     fn cell<T>(
         &self,
         column: &str,
@@ -141,7 +141,7 @@ impl Row<'_> {
 fn read<T>(
     fixture: &'static str,
     text: &str,
-    row: impl Fn(&Row<'_>) -> Result<T, PaperError>,
+    row: impl Fn(&CsvRow<'_>) -> Result<T, PaperError>,
 ) -> Result<Vec<T>, PaperError> {
     // Rows of another length are reported here, with their last column.
     let mut reader = ReaderBuilder::new().trim(Trim::All).flexible(true).from_reader(text.as_bytes());
@@ -163,7 +163,7 @@ fn read<T>(
                 format!("{} cells where there are {} columns", cells.len(), headers.len()),
             ));
         }
-        rows.push(row(&Row { fixture, line, headers: &headers, cells: &cells })?);
+        rows.push(row(&CsvRow { fixture, line, headers: &headers, cells: &cells })?);
     }
     Ok(rows)
 }

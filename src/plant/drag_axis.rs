@@ -21,7 +21,7 @@ use crate::numeric::{Limit, Real, domain};
 #[cfg_attr(
     feature = "std",
     derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "Parts<T>", bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+    serde(try_from = "DragAxisParts<T>", bound(deserialize = "T: Real + serde::Deserialize<'de>"))
 )]
 pub struct DragAxis<T> {
     alpha: T,
@@ -34,7 +34,7 @@ pub struct DragAxis<T> {
 /// An axis as it is written, not yet checked.
 #[cfg(feature = "std")]
 #[derive(serde::Deserialize)]
-struct Parts<T> {
+struct DragAxisParts<T> {
     alpha: T,
     linear_drag: T,
     quadratic_drag: T,
@@ -43,10 +43,10 @@ struct Parts<T> {
 }
 
 #[cfg(feature = "std")]
-impl<T: Real> TryFrom<Parts<T>> for DragAxis<T> {
+impl<T: Real> TryFrom<DragAxisParts<T>> for DragAxis<T> {
     type Error = PlantError;
 
-    fn try_from(parts: Parts<T>) -> Result<Self, PlantError> {
+    fn try_from(parts: DragAxisParts<T>) -> Result<Self, PlantError> {
         let axis = Self::mixed(parts.alpha, parts.linear_drag, parts.quadratic_drag)?;
         axis.with_disturbance(parts.disturbance)?.with_delay_s(parts.delay_s)
     }

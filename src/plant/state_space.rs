@@ -17,7 +17,7 @@ use crate::numeric::{Limit, domain};
 /// # Ok::<(), selfosc::plant::PlantError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(try_from = "Parts")]
+#[serde(try_from = "StateSpaceParts")]
 pub struct StateSpace {
     a: DMatrix<f64>,
     b: DVector<f64>,
@@ -27,17 +27,17 @@ pub struct StateSpace {
 
 /// A plant as it is written, not yet checked.
 #[derive(serde::Deserialize)]
-struct Parts {
+struct StateSpaceParts {
     a: DMatrix<f64>,
     b: DVector<f64>,
     c: RowDVector<f64>,
     delay_s: f64,
 }
 
-impl TryFrom<Parts> for StateSpace {
+impl TryFrom<StateSpaceParts> for StateSpace {
     type Error = PlantError;
 
-    fn try_from(Parts { a, b, c, delay_s }: Parts) -> Result<Self, PlantError> {
+    fn try_from(StateSpaceParts { a, b, c, delay_s }: StateSpaceParts) -> Result<Self, PlantError> {
         Self::new(a, b, c)?.with_delay(delay_s)
     }
 }

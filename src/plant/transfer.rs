@@ -19,7 +19,7 @@ const PADE_LIMIT: usize = 10;
 /// # Ok::<(), selfosc::plant::PlantError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(try_from = "Parts")]
+#[serde(try_from = "TransferFunctionParts")]
 pub struct TransferFunction {
     numerator: Vec<f64>,
     denominator: Vec<f64>,
@@ -28,16 +28,16 @@ pub struct TransferFunction {
 
 /// A plant as it is written, not yet checked.
 #[derive(serde::Deserialize)]
-struct Parts {
+struct TransferFunctionParts {
     numerator: Vec<f64>,
     denominator: Vec<f64>,
     delay_s: f64,
 }
 
-impl TryFrom<Parts> for TransferFunction {
+impl TryFrom<TransferFunctionParts> for TransferFunction {
     type Error = PlantError;
 
-    fn try_from(parts: Parts) -> Result<Self, PlantError> {
+    fn try_from(parts: TransferFunctionParts) -> Result<Self, PlantError> {
         Self::new(&parts.numerator, &parts.denominator)?.with_delay(parts.delay_s)
     }
 }

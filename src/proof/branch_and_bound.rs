@@ -69,7 +69,7 @@ pub fn subdivide<const N: usize>(
     mut visit: impl FnMut(&[Interval; N]) -> Visit,
 ) -> Subdivision<N> {
     let sizes = domain.map(Interval::width);
-    let mut nodes = vec![Node { at: domain, halves: None }];
+    let mut nodes = vec![HalvedBox { at: domain, halves: None }];
     let mut open = BinaryHeap::new();
     let mut fresh = 0..1;
     let unsettled = 'search: loop {
@@ -87,7 +87,7 @@ pub fn subdivide<const N: usize>(
             break Some(at);
         };
         nodes[index].halves = Some([boxes, boxes + 1]);
-        nodes.extend(halves.map(|at| Node { at, halves: None }));
+        nodes.extend(halves.map(|at| HalvedBox { at, halves: None }));
         fresh = boxes..boxes + 2;
     };
     Subdivision { unsettled, boxes: nodes.len(), parts: undivided(&nodes) }
@@ -138,13 +138,13 @@ pub fn prove_positive<const N: usize>(
 }
 
 /// A box, and where its halves are.
-struct Node<const N: usize> {
+struct HalvedBox<const N: usize> {
     at: [Interval; N],
     halves: Option<[usize; 2]>,
 }
 
 /// The boxes without halves, in order, from the first node on.
-fn undivided<const N: usize>(nodes: &[Node<N>]) -> Vec<[Interval; N]> {
+fn undivided<const N: usize>(nodes: &[HalvedBox<N>]) -> Vec<[Interval; N]> {
     let (mut boxes, mut open) = (Vec::new(), vec![0]);
     while let Some(node) = open.pop().and_then(|index: usize| nodes.get(index)) {
         match node.halves {

@@ -14,7 +14,7 @@ use crate::numeric::{Interval, Jet};
 const ORDER: usize = 16;
 
 /// The jet a function is asked for.
-pub type Series = Jet<ORDER>;
+pub type IdentityJet = Jet<ORDER>;
 
 /// Proves that `M` functions stay within `tolerance` of zero from `from` to `to`, on at most `budget` cells.
 ///
@@ -31,7 +31,7 @@ pub type Series = Jet<ORDER>;
 /// # Errors
 /// [`NotProved`], because it is false or because the functions are not smooth enough.
 pub fn prove_zero<const M: usize>(
-    f: impl Fn(Series) -> [Series; M],
+    f: impl Fn(IdentityJet) -> [IdentityJet; M],
     from: f64,
     to: f64,
     tolerance: f64,
@@ -83,18 +83,18 @@ fn range<const N: usize>([from, to]: [f64; 2]) -> Result<Interval, NotProved<N>>
 /// [`NotProved::Undecided`], because it is false or because the functions are not smooth enough.
 pub fn prove_zero_of_two<const M: usize>(
     values: impl Fn(Interval, Interval) -> [Interval; M],
-    series: impl Fn(Series, Series) -> [Series; M],
+    series: impl Fn(IdentityJet, IdentityJet) -> [IdentityJet; M],
     domain: [[f64; 2]; 2],
     tolerance: f64,
     budget: usize,
 ) -> Result<Proved<2>, NotProved<2>> {
     let domain = [range(domain[0])?, range(domain[1])?];
-    let last = |jets: [Series; M]| largest(jets.map(|jet| jet.coefficients()[NODES]));
+    let last = |jets: [IdentityJet; M]| largest(jets.map(|jet| jet.coefficients()[NODES]));
     let mut bound = 0.0_f64;
     let found = subdivide(domain, budget, |&[a, b]| {
         let (across_a, across_b) = (node_polynomial(a), node_polynomial(b));
-        let rest_a = |b| LEBESGUE * across_a * last(series(Series::variable(a), Series::constant(b)));
-        let rest_b = |a| across_b * last(series(Series::constant(a), Series::variable(b)));
+        let rest_a = |b| LEBESGUE * across_a * last(series(IdentityJet::variable(a), IdentityJet::constant(b)));
+        let rest_b = |a| across_b * last(series(IdentityJet::constant(a), IdentityJet::variable(b)));
         let rests = rest_a(b) + rest_b(a);
         if rests <= 0.5 * tolerance {
             let (Some(nodes_a), Some(nodes_b)) = (chebyshev(a), chebyshev(b)) else { return Visit::Stop };
@@ -144,7 +144,7 @@ fn node_polynomial(interval: Interval) -> f64 {
 
 /// A bound of the magnitudes of `f` on a cell, infinite where `f` is not smooth; `None` where `f` is far from zero at the
 /// midpoint, so that no division helps.
-pub(crate) fn magnitude<const M: usize>(f: &impl Fn(Series) -> [Series; M], cell: Interval) -> Option<f64> {
+pub(crate) fn magnitude<const M: usize>(f: &impl Fn(IdentityJet) -> [IdentityJet; M], cell: Interval) -> Option<f64> {
     const LAST: usize = ORDER - 2;
     let middle = Interval::point(cell.midpoint());
     let (over_cell, at_middle) = (f(Jet::variable(cell)), f(Jet::variable(middle)));

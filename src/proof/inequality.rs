@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::branch_and_bound::prove_positive;
-use super::margin::{Cell, Margin, VARIABLES};
+use super::margin::{Margin, VARIABLES, VariableBox};
 use super::outcome::{Extent, NotProved};
 use crate::numeric::Interval;
 
@@ -31,11 +31,11 @@ pub struct Proof {
     /// The proved inequality, by [`Inequality::id`].
     pub inequality: String,
     /// Where.
-    pub domain: Cell,
+    pub domain: VariableBox,
     /// The margin is at least this, everywhere.
     pub bound: f64,
     /// The boxes.
-    pub boxes: Vec<Cell>,
+    pub boxes: Vec<VariableBox>,
 }
 
 /// Why a proof is not accepted.
@@ -108,7 +108,7 @@ crate::numeric::codes! { pub Refusal {
 impl Inequality {
     /// The box, or `None` where a range is empty.
     #[must_use]
-    pub fn domain(&self) -> Option<Cell> {
+    pub fn domain(&self) -> Option<VariableBox> {
         let [a, b, c] = self.variables.map(|variable| Interval::new(variable.lower, variable.upper));
         Some([a?, b?, c?])
     }
@@ -154,8 +154,8 @@ impl Inequality {
 
 /// Whether the boxes partition `domain` by cuts, in the order of the cuts: joined with their neighbours in
 /// turn, they give it back.
-fn tile(domain: &Cell, boxes: &[Cell]) -> bool {
-    let mut joined: Vec<Cell> = Vec::new();
+fn tile(domain: &VariableBox, boxes: &[VariableBox]) -> bool {
+    let mut joined: Vec<VariableBox> = Vec::new();
     for &at in boxes {
         let mut last = at;
         while let Some(whole) = joined.last().and_then(|before| join(before, &last)) {
@@ -168,7 +168,7 @@ fn tile(domain: &Cell, boxes: &[Cell]) -> bool {
 }
 
 /// The union of two boxes that differ in one side alone, in which the second continues the first.
-fn join(before: &Cell, after: &Cell) -> Option<Cell> {
+fn join(before: &VariableBox, after: &VariableBox) -> Option<VariableBox> {
     let cut = (0..VARIABLES).find(|&i| before[i] != after[i])?;
     let mut whole = *after;
     whole[cut] = before[cut].hull(after[cut]);

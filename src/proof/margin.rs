@@ -9,10 +9,10 @@ use crate::numeric::{Expression, Interval, Jet};
 pub const VARIABLES: usize = 3;
 
 /// A box: an interval for each unknown.
-pub type Cell = [Interval; VARIABLES];
+pub type VariableBox = [Interval; VARIABLES];
 
 /// Taylor coefficients up to the third.
-pub type Series = Jet<4>;
+pub type TaylorJet = Jet<4>;
 
 /// Partial derivatives with their own partial derivatives.
 pub type Curvature = crate::numeric::Gradient<Gradient<VARIABLES>, VARIABLES>;
@@ -27,7 +27,7 @@ pub struct Formula {
     /// With its second derivatives.
     pub curvature: fn([Curvature; VARIABLES]) -> Curvature,
     /// In powers of a single variable.
-    pub series: fn([Series; VARIABLES]) -> Series,
+    pub series: fn([TaylorJet; VARIABLES]) -> TaylorJet,
     /// The formula itself, to print.
     pub expression: fn([Expression; VARIABLES]) -> Expression,
 }
@@ -71,11 +71,11 @@ pub enum Margin {
         near: f64,
     },
     /// An enclosure in intervals that no single formula gives.
-    Enclosed(fn(&Cell) -> Interval),
+    Enclosed(fn(&VariableBox) -> Interval),
     /// An enclosure in intervals of a formula that is 0/0 at an end of its range, where its limit is enclosed.
     Curve {
         /// The enclosure.
-        over: fn(&Cell) -> Interval,
+        over: fn(&VariableBox) -> Interval,
         /// The formula beside that end, to print.
         expression: fn([Expression; VARIABLES]) -> Option<Expression>,
     },
@@ -106,7 +106,7 @@ pub enum Form {
 impl Margin {
     /// An enclosure over a box.
     #[must_use]
-    pub fn over(&self, at: &Cell) -> Interval {
+    pub fn over(&self, at: &VariableBox) -> Interval {
         match *self {
             Self::Value(formula) => (formula.interval)(*at),
             Self::Slope { of, by } => slope(of, by, at),
@@ -147,7 +147,7 @@ impl Margin {
 }
 
 /// By the derivative over the box, and by that at its middle with the mean value theorem, whichever is narrower at either end.
-fn slope(of: Formula, by: usize, at: &Cell) -> Interval {
+fn slope(of: Formula, by: usize, at: &VariableBox) -> Interval {
     let direct = (of.gradient)(Gradient::variables(*at)).slopes()[by];
     let middle = at.map(|side| Interval::point(side.midpoint()));
     let at_middle = (of.gradient)(Gradient::variables(middle)).slopes()[by];
@@ -159,14 +159,14 @@ fn slope(of: Formula, by: usize, at: &Cell) -> Interval {
 
 /// By Taylor's theorem at zero, the last coefficient between zero and the points of `at`; no bound unless the lower coefficients
 /// are zero.
-fn over_power(of: Formula, order: usize, at: &Cell) -> Interval {
+fn over_power(of: Formula, order: usize, at: &VariableBox) -> Interval {
     let mut at_zero = *at;
     at_zero[0] = Interval::ZERO;
     // Derivatives, whose operations keep an exact zero; sums of products in a jet round.
     let zero = (of.curvature)(Curvature::variables(Gradient::variables(at_zero)));
     let lower = [zero.value().value(), zero.slopes()[0].value(), zero.slopes()[0].slopes()[0]];
-    let mut variables = at.map(Series::constant);
-    variables[0] = Series::variable(at[0].hull(Interval::ZERO));
+    let mut variables = at.map(TaylorJet::constant);
+    variables[0] = TaylorJet::variable(at[0].hull(Interval::ZERO));
     match (lower.get(..order), (of.series)(variables).coefficients().get(order)) {
         (Some(lower), Some(&last)) if lower.iter().all(|value| *value == Interval::ZERO) => last,
         _ => Interval::ENTIRE,

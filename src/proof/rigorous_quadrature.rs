@@ -77,7 +77,7 @@ pub fn integrate<const M: usize>(
     let mut settled = array::from_fn(|i| sign * (at_start[i] * (start - from) + at_end[i] * (to - end)));
 
     let whole = start.hull(end);
-    let mut open = vec![Cell::new(integrand, whole, width, false)];
+    let mut open = vec![Subdomain::new(integrand, whole, width, false)];
     let mut cells = 1;
     while let Some(widest) = widest(&open) {
         // The sum is formed only once no single cell is too wide.
@@ -91,7 +91,7 @@ pub fn integrate<const M: usize>(
         cells += parts.len();
         let parent = open.swap_remove(widest);
         let rough = parent.smoothness != Smoothness::Decided;
-        let parts: Vec<_> = parts.into_iter().map(|part| Cell::new(integrand, part, width, rough)).collect();
+        let parts: Vec<_> = parts.into_iter().map(|part| Subdomain::new(integrand, part, width, rough)).collect();
         // Where a smooth cell's halves are no better, only rounding remains.
         let exhausted = !rough && parts.iter().map(|part| part.width).sum::<f64>() > 0.9 * parent.width;
         for part in parts {
@@ -111,11 +111,11 @@ fn add<const M: usize>(a: [Interval; M], b: [Interval; M]) -> [Interval; M] {
 }
 
 /// The sum over settled and open cells.
-fn total<const M: usize>(settled: [Interval; M], open: &[Cell<M>]) -> [Interval; M] {
+fn total<const M: usize>(settled: [Interval; M], open: &[Subdomain<M>]) -> [Interval; M] {
     open.iter().fold(settled, |sum, cell| add(sum, cell.integrals))
 }
 
-fn widest<const M: usize>(open: &[Cell<M>]) -> Option<usize> {
+fn widest<const M: usize>(open: &[Subdomain<M>]) -> Option<usize> {
     let numbered = open.iter().enumerate();
     numbered.max_by(|(_, a), (_, b)| a.width.total_cmp(&b.width)).map(|(index, _)| index)
 }
@@ -139,7 +139,7 @@ enum Smoothness {
 }
 
 /// Part of the domain, with its contribution.
-struct Cell<const M: usize> {
+struct Subdomain<const M: usize> {
     domain: Interval,
     integrals: [Interval; M],
     /// The largest width of a contribution.
@@ -147,7 +147,7 @@ struct Cell<const M: usize> {
     smoothness: Smoothness,
 }
 
-impl<const M: usize> Cell<M> {
+impl<const M: usize> Subdomain<M> {
     /// By the jets, or by the range where they do not decide; by the range first where they did not on a larger cell.
     fn new(integrand: &impl Integrand<M>, domain: Interval, wanted: f64, rough: bool) -> Self {
         let length = Interval::point(domain.upper()) - Interval::point(domain.lower());

@@ -69,7 +69,7 @@ impl BodyState {
 }
 
 /// Position, quaternion (i, j, k, w) and velocity in one column.
-type Column = SVector<f64, 13>;
+type StateColumn = SVector<f64, 13>;
 
 /// A vehicle with thrusters, advanced by the classical fourth-order Runge-Kutta method.
 ///
@@ -169,7 +169,7 @@ impl Simulation {
             let acting = queue.pop_front().unwrap_or(command);
             force += mounted.column * mounted.thruster.thrust(acting);
         }
-        let rate = |column: &Column| {
+        let rate = |column: &StateColumn| {
             let state = unpack(column);
             let (velocity, spin) = state.pose.rate(&state.nu);
             let acceleration =
@@ -177,7 +177,7 @@ impl Simulation {
             pack(&velocity, spin.as_slice(), &acceleration)
         };
         let start = pack(&self.state.pose.position_m, self.state.pose.attitude.coords.as_slice(), &self.state.nu);
-        let next = Column::from(runge_kutta(start.into(), self.step_s, |column| rate(&column.into()).into()));
+        let next = StateColumn::from(runge_kutta(start.into(), self.step_s, |column| rate(&column.into()).into()));
         self.steps += 1;
         if !next.iter().all(|value| value.is_finite()) {
             return Err(VehicleError::Diverged { time_s: self.time_s(), step_s: self.step_s });
@@ -187,12 +187,12 @@ impl Simulation {
     }
 }
 
-fn pack(position: &Vector3<f64>, quaternion: &[f64], nu: &Vector6<f64>) -> Column {
-    Column::from_iterator(position.iter().chain(quaternion).chain(nu).copied())
+fn pack(position: &Vector3<f64>, quaternion: &[f64], nu: &Vector6<f64>) -> StateColumn {
+    StateColumn::from_iterator(position.iter().chain(quaternion).chain(nu).copied())
 }
 
 /// The quaternion comes back to unit length, from which a step moves it by the method's error only.
-fn unpack(column: &Column) -> BodyState {
+fn unpack(column: &StateColumn) -> BodyState {
     let quaternion = Quaternion::from(column.fixed_rows::<4>(3).into_owned());
     BodyState {
         pose: Pose {

@@ -8,9 +8,9 @@ use selfosc::orbit::{certify, quadratic_half_cycle};
 use selfosc::plant::DragAxis;
 use selfosc::proof::branch_and_bound::prove_positive;
 use selfosc::proof::enclosure::{Roots, newton};
-use selfosc::proof::identity::{Series, prove_zero, prove_zero_of_two};
+use selfosc::proof::identity::{IdentityJet, prove_zero, prove_zero_of_two};
 use selfosc::proof::inequality::Inequality;
-use selfosc::proof::margin::Cell;
+use selfosc::proof::margin::VariableBox;
 use selfosc::proof::margin::Margin;
 use selfosc::proof::{Change, Gradient, NotProved, formula};
 
@@ -32,7 +32,7 @@ fn between_the_nodes<T: Real>(x: T) -> T {
     last
 }
 
-fn tried_on_a_square<F: Fn(Series, Series) -> Series, G: Fn(Interval, Interval) -> Interval>(
+fn tried_on_a_square<F: Fn(IdentityJet, IdentityJet) -> IdentityJet, G: Fn(Interval, Interval) -> Interval>(
     f: G,
     g: F,
     tolerance: f64,
@@ -93,10 +93,10 @@ fn an_interpolation_exceeds_its_nodes() {
 /// A cell that reaches over a kink by a little has both its sides.
 #[test]
 fn a_kink_is_seen_from_either_side() {
-    let over = |from: f64, to: f64| Series::variable(Interval::new(from, to).unwrap());
+    let over = |from: f64, to: f64| IdentityJet::variable(Interval::new(from, to).unwrap());
     let slope = over(-5e-10, 0.1).abs().coefficients()[1];
     assert!(slope.contains(-1.0) && slope.contains(1.0), "{slope}");
-    let step = over(-0.001, 0.002).select(|| Series::from_f64(-1.0), Series::one).value();
+    let step = over(-0.001, 0.002).select(|| IdentityJet::from_f64(-1.0), IdentityJet::one).value();
     assert!(step.contains(-1.0) && step.contains(1.0), "{step}");
 }
 
@@ -125,7 +125,7 @@ fn braking_by_drag_alone() {
 /// Zero with fourteen derivatives in the middle, a millionth at the ends.
 #[test]
 fn a_remainder_is_taken_over_the_whole_cell() {
-    let flat = |height: f64| move |t: Series| [times(height, (0..20).fold(Series::one(), |power, _| power * t))];
+    let flat = |height: f64| move |t: IdentityJet| [times(height, (0..20).fold(IdentityJet::one(), |power, _| power * t))];
     assert!(prove_zero(flat(1e-6), -1.0, 1.0, 1e-9, 5000).is_err());
     assert!(prove_zero(flat(1e-10), -1.0, 1.0, 1e-9, 5000).is_ok());
 }
@@ -134,9 +134,9 @@ fn a_remainder_is_taken_over_the_whole_cell() {
 #[test]
 fn local_falsehoods_are_not_proved() {
     for at in [0.3, 0.123_456, 0.999_9] {
-        let bump = |t: Series| {
-            let away = (t - Series::from_f64(at)) * Series::from_f64(2000.0);
-            [times(1e-6, Series::one() / (Series::one() + away.square() * away.square()))]
+        let bump = |t: IdentityJet| {
+            let away = (t - IdentityJet::from_f64(at)) * IdentityJet::from_f64(2000.0);
+            [times(1e-6, IdentityJet::one() / (IdentityJet::one() + away.square() * away.square()))]
         };
         assert!(prove_zero(bump, 0.0, 1.0, 1e-9, 20_000).is_err(), "{at}");
         let dip = |[x]: &[Interval; 1]| {
@@ -145,7 +145,7 @@ fn local_falsehoods_are_not_proved() {
         };
         assert!(prove_positive(dip, [Interval::new(0.0, 1.0).unwrap()], 20_000).is_err(), "{at}");
     }
-    let ripple = |t: Series| [times(1e-6, (t * Series::from_f64(1e4)).sin())];
+    let ripple = |t: IdentityJet| [times(1e-6, (t * IdentityJet::from_f64(1e4)).sin())];
     assert!(prove_zero(ripple, 0.0, 1.0, 1e-9, 20_000).is_err());
     let rippled = |[x]: &[Interval; 1]| Interval::ONE + times(1.000_001, (*x * Interval::point(1e4)).sin());
     assert!(prove_positive(rippled, [Interval::new(0.0, 1.0).unwrap()], 20_000).is_err());
@@ -310,7 +310,7 @@ fn a_zero_of_a_lower_order_is_not_divided_out() {
         ..theorem::QUADRATIC_OVERSHOOT_WEAK
     };
     assert!(inequality.prove(2000).is_err());
-    let near: Cell = [Interval::new(0.0, 0.04).unwrap(), Interval::ZERO, Interval::ZERO];
+    let near: VariableBox = [Interval::new(0.0, 0.04).unwrap(), Interval::ZERO, Interval::ZERO];
     assert_eq!(inequality.margin.over(&near), Interval::ENTIRE);
     assert!(theorem::QUADRATIC_OVERSHOOT_WEAK.margin.over(&near).is_positive());
 }

@@ -9,7 +9,7 @@ use selfosc::orbit::theorem::{BUDGET, QUADRATIC};
 use selfosc::orbit::{OrbitError, certify, force_left, limit_cycle, return_slope};
 use selfosc::plant::DragAxis;
 use selfosc::proof::inequality::{Inequality, Proof, Refusal};
-use selfosc::proof::margin::Cell;
+use selfosc::proof::margin::VariableBox;
 use selfosc::proof::margin::{Form, Margin};
 use selfosc::proof::{Extent, Gradient, NotProved};
 
@@ -84,7 +84,7 @@ fn corrupted_proofs_are_refused() {
 }
 
 /// `boxes` with one of them changed.
-fn with(boxes: &[Cell], index: usize, change: impl FnOnce(&mut Cell)) -> Vec<Cell> {
+fn with(boxes: &[VariableBox], index: usize, change: impl FnOnce(&mut VariableBox)) -> Vec<VariableBox> {
     let mut boxes = boxes.to_vec();
     change(&mut boxes[index]);
     boxes
@@ -94,7 +94,7 @@ fn with(boxes: &[Cell], index: usize, change: impl FnOnce(&mut Cell)) -> Vec<Cel
 #[test]
 fn boxes_that_do_not_make_up_the_domain_are_refused() {
     for (inequality, proof) in proofs() {
-        let refused = |boxes: Vec<Cell>, what: &str| {
+        let refused = |boxes: Vec<VariableBox>, what: &str| {
             let found = inequality.check(&Proof { boxes, ..proof.clone() });
             assert_eq!(found, Err(Refusal::NotCovered), "{}: {what}", inequality.id);
         };
@@ -135,7 +135,7 @@ fn any_cuts_will_do() {
     };
     let side = |lower, upper| Interval::new(lower, upper).unwrap();
     let cell = |x: (f64, f64), y: (f64, f64)| [side(x.0, x.1), side(y.0, y.1), Interval::ZERO];
-    let check = |boxes: &[Cell]| {
+    let check = |boxes: &[VariableBox]| {
         let domain = ANYWHERE.domain().unwrap();
         ANYWHERE.check(&Proof { inequality: "anywhere".to_owned(), domain, bound: 1.0, boxes: boxes.to_vec() })
     };

@@ -16,24 +16,24 @@ claim! {
     RELAY_FIRST_ORDER = "relay-first-order" Theorem
     "a first-order process or an integrator with dead time under a two-level relay: half-periods and extremes in closed form, once a command has stood for a dead time" {
         not_proved: Some("half-periods are logarithms of the parameters: the program samples them, the kernel checks them"),
-        corrected: Some(|budget| first_order_cycle(budget, 0.9, 1.0, Searched::Slowest)),
+        corrected: Some(|budget| first_order_cycle(budget, 0.9, 1.0, SoughtOscillation::Slowest)),
         // The output turns at the relay's level: no dead time beyond it.
-        falsified: |budget| first_order_cycle(budget, 0.9, 0.0, Searched::Slowest),
+        falsified: |budget| first_order_cycle(budget, 0.9, 0.0, SoughtOscillation::Slowest),
         hypotheses: &[
-            Hypothesis::needed("levels-passed", |budget| first_order_cycle(budget, 1.1, 1.0, Searched::Slowest)),
-            Hypothesis::needed("low-for-a-dead-time", |budget| first_order_cycle(budget, 0.9, 1.0, Searched::Faster)),
+            Hypothesis::needed("levels-passed", |budget| first_order_cycle(budget, 1.1, 1.0, SoughtOscillation::Slowest)),
+            Hypothesis::needed("low-for-a-dead-time", |budget| first_order_cycle(budget, 0.9, 1.0, SoughtOscillation::Faster)),
         ],
     }
 }
 
 /// The oscillation of the closed form, or a faster oscillation that a dead time allows.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Searched {
+enum SoughtOscillation {
     Slowest,
     Faster,
 }
 
-impl Searched {
+impl SoughtOscillation {
     /// Shares of the closed form's period between which it is looked for.
     fn shares(self) -> [f64; 2] {
         match self {
@@ -45,7 +45,7 @@ impl Searched {
 
 /// The slowest enclosed oscillation of those looked for against the closed form. The levels reach up to `reach` of the
 /// outputs at which the process settles; `dead` is the share of the dead time in the closed form.
-fn first_order_cycle(budget: Budget, reach: f64, dead: f64, searched: Searched) -> Verdict {
+fn first_order_cycle(budget: Budget, reach: f64, dead: f64, searched: SoughtOscillation) -> Verdict {
     sample(Budget { cases: budget.cases.min(200), ..budget }, |draw: &mut Draw| {
         let (gain, time_s) = (draw.log_uniform("gain", 1e-1, 1e1), draw.log_uniform("time_s", 1e-1, 1e1));
         let dead_time_s = time_s * draw.log_uniform("dead_over_time", 0.1, 3.0);
@@ -65,7 +65,7 @@ fn first_order_cycle(budget: Budget, reach: f64, dead: f64, searched: Searched) 
         let found = orbits(&plant, &relay, Some(least * period_s..=most * period_s)).ok()?;
         // A faster oscillation need not be there.
         let Some(orbit) = found.orbits.first() else {
-            return (searched == Searched::Slowest).then(|| Case::truth(false));
+            return (searched == SoughtOscillation::Slowest).then(|| Case::truth(false));
         };
         let size = cycle.maximum - cycle.minimum;
         let equations = [

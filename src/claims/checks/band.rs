@@ -1,7 +1,7 @@
 //! A held input: the forms that the code chooses from are all the difference of two ramps.
 
 use super::algebra::{exactly, number};
-use super::single::Single;
+use super::single::SingleKernel;
 use super::{ClaimPart, Distortion, Verdict};
 use crate::describing::{ClosedForm, DescribingFunction, ramp_by_angle};
 use crate::nonlinearity::{Kernel, Sinusoid};
@@ -12,7 +12,7 @@ const COVERED: ClaimPart = ClaimPart::named("as-coded");
 
 /// Of one kernel.
 fn of(kernel: Kernel<Rational>, sweep: &Sinusoid<Rational>) -> Option<DescribingFunction<Rational>> {
-    Single(kernel).describing_function(sweep).ok()
+    SingleKernel(kernel).describing_function(sweep).ok()
 }
 
 fn band([origin, lower, upper]: [Rational; 3], sweep: &Sinusoid<Rational>) -> Option<DescribingFunction<Rational>> {
@@ -58,13 +58,13 @@ fn by_ramps(distortion: Distortion) -> Verdict {
 
 /// Where an end lies on a sweep of amplitude 1/2: above its minimum by the square of a sine, or beyond a turning point.
 #[derive(Clone, Copy)]
-enum End {
+enum BandEnd {
     At { sine: Rational, cosine: Rational },
     Below { by: Rational },
     Above { by: Rational },
 }
 
-impl End {
+impl BandEnd {
     fn at(sine: Rational) -> Self {
         Self::At { sine, cosine: (number(1.0) - sine.square()).sqrt() }
     }
@@ -90,7 +90,7 @@ impl End {
 /// The form from the middle. With `s = sin(psi)` an end lies at `s^2` above the minimum, and its angle from the maximum is
 /// `pi - 2 psi`. The code forms the tangents of the difference of both psi and of their sum less a quarter turn; by these two
 /// angles the ramps are compared with it.
-fn from_the_middle(bias: Rational, [lower, upper]: [End; 2], factor: Rational) -> Option<[Rational; 5]> {
+fn from_the_middle(bias: Rational, [lower, upper]: [BandEnd; 2], factor: Rational) -> Option<[Rational; 5]> {
     let sweep = Sinusoid::new(bias, number(0.5)).ok()?;
     let ([low, low_cosine], [high, high_cosine]) = (lower.half_angle(), upper.half_angle());
     let cosines = low * low_cosine + high * high_cosine;
@@ -114,13 +114,13 @@ fn from_the_middle(bias: Rational, [lower, upper]: [End; 2], factor: Rational) -
 /// The form from the middle where both ends are on the sweep, and where an end is beyond it.
 fn by_tangents(distortion: Distortion) -> Verdict {
     let on_sweep = |[first, second, bias]: [Rational; 3], factor: Rational| {
-        from_the_middle(bias, [End::at(first), End::at(second)], factor)
+        from_the_middle(bias, [BandEnd::at(first), BandEnd::at(second)], factor)
     };
     let below = |[by, second, bias]: [Rational; 3], factor: Rational| {
-        from_the_middle(bias, [End::Below { by }, End::at(second)], factor)
+        from_the_middle(bias, [BandEnd::Below { by }, BandEnd::at(second)], factor)
     };
     let above = |[first, by, bias]: [Rational; 3], factor: Rational| {
-        from_the_middle(bias, [End::at(first), End::Above { by }], factor)
+        from_the_middle(bias, [BandEnd::at(first), BandEnd::Above { by }], factor)
     };
     exactly(COVERED, distortion, &[[0.6, 0.8, 0.3]], on_sweep)
         .and(|| exactly(COVERED, distortion, &[[0.1, 0.6, 0.3]], below))

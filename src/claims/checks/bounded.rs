@@ -63,13 +63,13 @@ const SAMPLES: usize = 40;
 const SWING: usize = 10;
 
 /// An axis with linear drag under a square wave, by its solution in closed form.
-struct Axis {
+struct SquareWaveAxis {
     truth: [f64; 3],
     states: Vec<[f64; 2]>,
     record: Record,
 }
 
-impl Axis {
+impl SquareWaveAxis {
     fn draw(draw: &mut Draw) -> Option<Self> {
         let (alpha, beta) = (draw.log_uniform("alpha", 0.5, 2.0), draw.log_uniform("beta", 0.2, 2.0));
         let delta = draw.uniform("delta", 0.05, 0.3);
@@ -112,7 +112,7 @@ claim! {
 
 fn mean_value(budget: Budget, middles: bool) -> Verdict {
     sample(motions(budget), |draw| {
-        let axis = Axis::draw(draw)?;
+        let axis = SquareWaveAxis::draw(draw)?;
         let width = draw.uniform("half_width", 0.02, 0.1);
         let outside = axis.surrounded(width).and_then(|all| all.outside(&axis.states, axis.truth, middles));
         let outside = outside?;
@@ -132,7 +132,7 @@ claim! {
 
 fn chain(budget: Budget, shift: f64) -> Verdict {
     sample(motions(budget), |draw| {
-        let axis = Axis::draw(draw)?;
+        let axis = SquareWaveAxis::draw(draw)?;
         let missed = axis.surrounded(0.02).and_then(|all| all.missed(&axis.states, axis.truth, shift));
         let missed = missed?;
         Some(draw.at_most(("missed", missed), ("rounding_of_the_closed_form", tolerance::ROUNDING), 1.0))

@@ -1,7 +1,7 @@
 //! The piecewise-linear catalogue as sums of kernels, and the kernels' describing functions wherever the breakpoint is.
 
 use super::algebra::{exactly, number};
-use super::single::Single;
+use super::single::SingleKernel;
 use super::{ClaimPart, Distortion, Verdict};
 use crate::describing::{ClosedForm, DescribingFunction};
 use crate::nonlinearity::{
@@ -45,7 +45,7 @@ where
             let [bias, amplitude, place] = [at[PARAMETERS], at[PARAMETERS + 1], at[PARAMETERS + 2]];
             let (sweep, x) = (Sinusoid::new(bias, amplitude).ok()?, bias + amplitude * place);
             let mut sum = number(0.0);
-            member.kernels(&sweep, |kernel| sum = sum + Single(kernel).value(x, branch, &sweep));
+            member.kernels(&sweep, |kernel| sum = sum + SingleKernel(kernel).value(x, branch, &sweep));
             Some([member.value(x, branch, &sweep) - factor * sum])
         })
     };
@@ -53,11 +53,11 @@ where
 }
 
 /// The proof of a member on a branch.
-type Proof = fn(Distortion, Branch) -> Verdict;
+type MemberProof = fn(Distortion, Branch) -> Verdict;
 
 /// Each member with settings in every order that its parameters can have; a polyline of up to four points, the bias in each of
 /// its segments.
-const MEMBERS: [(&str, Proof); 14] = [
+const MEMBERS: [(&str, MemberProof); 14] = [
     (Relay::<Rational>::NAME, |d, b| is_sum::<Relay<_>>(d, b, &[&[0.7]])),
     (RelayDeadZone::<Rational>::NAME, |d, b| is_sum::<RelayDeadZone<_>>(d, b, &[&[0.7, 1.3]])),
     (RelayHysteresis::<Rational>::NAME, |d, b| is_sum::<RelayHysteresis<_>>(d, b, &[&[0.7, 1.3, 0.2]])),
@@ -95,22 +95,22 @@ const MEMBERS: [(&str, Proof); 14] = [
 /// Every member on both branches.
 pub(super) fn decomposition(distortion: Distortion) -> Verdict {
     let both =
-        |(_, proof): &(&str, Proof)| proof(distortion, Branch::Rising).and(|| proof(distortion, Branch::Falling));
+        |(_, proof): &(&str, MemberProof)| proof(distortion, Branch::Rising).and(|| proof(distortion, Branch::Falling));
     Verdict::all(MEMBERS.iter().map(both))
 }
 
 /// Kernels with a single breakpoint, of a height or slope.
-type Make = fn(at: Rational, height: Rational, side: Side, branches: Branches) -> Kernel<Rational>;
+type RationalKernel = fn(at: Rational, height: Rational, side: Side, branches: Branches) -> Kernel<Rational>;
 
-const STEP: Make = |at, height, side, branches| Kernel::Step { at, height, side, branches };
-const RAMP: Make = |at, slope, side, branches| Kernel::Ramp { at, slope, side, branches };
-const SIGN: Make = |at, level, _, branches| Kernel::Sign { at, level, branches };
+const STEP: RationalKernel = |at, height, side, branches| Kernel::Step { at, height, side, branches };
+const RAMP: RationalKernel = |at, slope, side, branches| Kernel::Ramp { at, slope, side, branches };
+const SIGN: RationalKernel = |at, level, _, branches| Kernel::Sign { at, level, branches };
 
 const SIDES: [Side; 2] = [Side::Above, Side::Below];
 const BRANCHES: [Branches; 3] = [Branches::Both, Branches::Rising, Branches::Falling];
 
 fn of(kernel: Kernel<Rational>, bias: Rational, amplitude: Rational) -> Option<DescribingFunction<Rational>> {
-    Single(kernel).describing_function(&Sinusoid::new(bias, amplitude).ok()?).ok()
+    SingleKernel(kernel).describing_function(&Sinusoid::new(bias, amplitude).ok()?).ok()
 }
 
 /// The three components of the output, that is `[F_0, P X, Q X]`.
@@ -122,7 +122,7 @@ fn output(df: DescribingFunction<Rational>, amplitude: Rational) -> [Rational; 3
 /// branch turns the cosine component round, a kernel below is the kernel above its mirror image with the sine component
 /// turned round, and a kernel on both branches is the sum.
 pub(super) fn scaling(distortion: Distortion) -> Verdict {
-    let one = |make: Make, side: Side, branches: Branches, is_ramp: bool| {
+    let one = |make: RationalKernel, side: Side, branches: Branches, is_ramp: bool| {
         let points = [0.25, -0.25, 0.75, -0.75].map(|u| [u, 0.3, 2.0, 0.7]);
         exactly(SCALING, distortion, &points, |[u, bias, amplitude, height]: [Rational; 4], factor: Rational| {
             let (zero, unit) = (number(0.0), number(1.0));
@@ -154,7 +154,7 @@ pub(super) fn scaling(distortion: Distortion) -> Verdict {
 /// With its breakpoint beyond the sweep a kernel is a straight line `c + s x` on each branch that counts, with mean `c + s B`,
 /// sine component `s X` and, on a branch alone, cosine component `4 (c + s B)/pi` of either sign: half of each on a branch.
 pub(super) fn beyond(distortion: Distortion) -> Verdict {
-    let one = |make: Make, line: fn(Side, bool) -> [f64; 2], side: Side, branches: Branches| {
+    let one = |make: RationalKernel, line: fn(Side, bool) -> [f64; 2], side: Side, branches: Branches| {
         let points = [[4.0, 0.3, 2.0, 0.7], [-4.0, 0.3, 2.0, 0.7]];
         exactly(BEYOND, distortion, &points, |[at, bias, amplitude, height]: [Rational; 4], factor: Rational| {
             let found = output(of(make(at, height, side, branches), bias, amplitude)?, amplitude);

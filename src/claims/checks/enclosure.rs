@@ -3,7 +3,7 @@
 use super::{ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, tolerance};
 use crate::describing::DescribingFunction;
 use crate::numeric::{Interval, Real};
-use crate::proof::identity::{Series, prove_zero};
+use crate::proof::identity::{IdentityJet, prove_zero};
 
 /// Cells of an identity of a single variable.
 const CELLS: usize = 5000;
@@ -13,7 +13,7 @@ const CELLS: usize = 5000;
 pub(super) fn identity<const M: usize>(
     part: ClaimPart,
     distortion: Distortion,
-    f: impl Fn(Series, Series) -> [Series; M],
+    f: impl Fn(IdentityJet, IdentityJet) -> [IdentityJet; M],
 ) -> Verdict {
     let Some(&ClaimVariable { from, to, .. }) = part.variables.first() else {
         return Verdict::undecided("no variable");

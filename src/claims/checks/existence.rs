@@ -22,13 +22,13 @@ claim! {
 }
 
 /// The lags, the gain and the characteristic `tanh(scale x)` of `gain/(s (s + a)(s + b))`.
-struct Loop {
+struct TanhLoop {
     poles: [f64; 2],
     gain: f64,
     scale: f64,
 }
 
-impl Loop {
+impl TanhLoop {
     /// Above the critical gain `a b (a + b)/scale`, at which the loop begins to oscillate.
     fn draw(draw: &mut Draw) -> Self {
         let poles = [draw.log_uniform("first_pole", 0.3, 3.0), draw.log_uniform("second_pole", 0.3, 3.0)];
@@ -68,11 +68,11 @@ pub(super) fn return_error(proved: &ProvedOscillation, [a, b]: [f64; 2], gain: f
 /// From the state that a proved box has at phase zero, the loop with its gain times `factor` returns to it after a period.
 fn returns(budget: Budget, factor: f64) -> Verdict {
     sample(Budget { cases: budget.cases.div_ceil(100), ..budget }, |draw| {
-        let control_loop = Loop::draw(draw);
+        let control_loop = TanhLoop::draw(draw);
         let proved = control_loop.proved()?;
         draw.note("omega_rad_s", proved.omega_rad_s().midpoint());
         draw.note("amplitude", proved.amplitude().midpoint());
-        let Loop { poles, gain, scale } = control_loop;
+        let TanhLoop { poles, gain, scale } = control_loop;
         let off = return_error(&proved, poles, factor * gain, |x| libm::tanh(scale * x));
         Some(Case::margin(1.0 - draw.note("off", off) / tolerance::INTEGRATED))
     })

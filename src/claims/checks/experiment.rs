@@ -20,12 +20,12 @@ use crate::plant::{DragAxis, State, StateSpace, TransferFunction};
 use crate::proof::polynomial::Rational;
 
 /// An axis with drag of either kind, a disturbance and a delay, under its relay.
-struct Loop {
+struct RelayedAxis {
     axis: DragAxis<f64>,
     relay: RelayHysteresis<f64>,
 }
 
-impl Loop {
+impl RelayedAxis {
     /// Drag of the kinds stated, disturbances up to half the level, delays up to `longest_s`.
     fn draw(draw: &mut Draw, (linear, quadratic): (bool, bool), longest_s: f64) -> Option<Self> {
         let mut drag = |name, present| if present { draw.log_uniform(name, 0.2, 3.0) } else { 0.0 };
@@ -60,7 +60,7 @@ claim! {
 fn delays_add(budget: Budget, factor: f64, fraction: f64, kinds: usize) -> Verdict {
     const RATE_HZ: f64 = 20.0;
     sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
-        let Loop { axis, relay } = Loop::draw(draw, (true, true), 0.0)?;
+        let RelayedAxis { axis, relay } = RelayedAxis::draw(draw, (true, true), 0.0)?;
         let (late, held) = (1 + draw.index("samples_less_one", 5), draw.index("watching", kinds) == 0);
         let delay_s = draw.note("delay_s", (late as f64 + fraction) / RATE_HZ);
         let run = |input_s: f64, sensor_s: f64| -> Option<Record> {
@@ -156,7 +156,7 @@ claim! {
 /// The speed's own first-order equation and an integrator, integrated step by step, against the limit cycle of eq. 36.
 fn surge(budget: Budget, measured: fn([f64; 2]) -> f64) -> Verdict {
     sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
-        let Loop { axis, relay } = Loop::draw(draw, (true, true), 0.5)?;
+        let RelayedAxis { axis, relay } = RelayedAxis::draw(draw, (true, true), 0.5)?;
         let Ok(cycle) = limit_cycle(&axis, &relay) else { return Some(Case::truth(false)) };
         let moved = |state: [f64; 2], command: f64, time_s: f64| {
             runge_kutta(state, time_s, |[speed, _]| {
@@ -216,7 +216,7 @@ const CLEAR: (f64, f64) = (0.0, 0.8);
 /// Parameters from a simulated record, given its samples a period, against those from the limit cycle.
 fn procedure(budget: Budget, samples: f64, delay: f64, condition_40: (f64, f64)) -> Verdict {
     sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
-        let case = Loop::draw(draw, (true, true), 0.3)?;
+        let case = RelayedAxis::draw(draw, (true, true), 0.3)?;
         let Some(cycle) = case.cycle() else { return Some(Case::truth(false)) };
         let share = (case.relay.half_width() + cycle.bias.abs()) / cycle.amplitude;
         if !(condition_40.0..condition_40.1).contains(&share) {
@@ -338,7 +338,7 @@ fn balance(budget: Budget, gain: Gain, delay: f64) -> Verdict {
 /// Quadratic drag with the linear drag of the same first harmonic.
 fn quadratic_balance(budget: Budget) -> Verdict {
     sample(budget, |draw| {
-        let case = Loop::draw(draw, (false, true), 0.0)?;
+        let case = RelayedAxis::draw(draw, (false, true), 0.0)?;
         let (axis, level) = (case.axis, case.relay.level());
         let (axis, cycle) =
             axis.with_disturbance(0.0).ok().and_then(|axis| Some((axis, limit_cycle(&axis, &case.relay).ok()?)))?;

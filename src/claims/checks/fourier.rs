@@ -126,12 +126,12 @@ claim! {
 }
 
 /// Draws a characteristic.
-type Family = fn(&mut Draw) -> Result<Boxed<f64>, NonlinearityError>;
+type DrawnFamily = fn(&mut Draw) -> Result<Boxed<f64>, NonlinearityError>;
 /// Draws an input.
 type Sweep = fn(&mut Draw) -> Result<Sinusoid<f64>, NonlinearityError>;
 
 /// Harmonics 0, 2, 4, 6 are zero to the accuracy of quadrature.
-fn even_vanish(budget: Budget, family: Family, sweep: Sweep) -> Verdict {
+fn even_vanish(budget: Budget, family: DrawnFamily, sweep: Sweep) -> Verdict {
     sample(budget, |draw| {
         let (characteristic, sweep) = (family(draw).ok()?, sweep(draw).ok()?);
         let scale = output_scale(&*characteristic, &sweep).max(1e-3);

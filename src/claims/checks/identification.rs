@@ -1,7 +1,7 @@
 //! From the first harmonic to parameters: eqs. 21-29, 33-34, Table 3, 37-39, 41-42, the zig-zag test.
 
 use crate::numeric::{Gradient, Interval, Real};
-use crate::proof::identity::{Series, prove_zero_of_two};
+use crate::proof::identity::{IdentityJet, prove_zero_of_two};
 use crate::proof::polynomial::{Rational, decided};
 use core::f64::consts::PI;
 
@@ -190,7 +190,7 @@ fn prove_delay_rotation(distortion: Distortion) -> Verdict {
     const COVERED: ClaimPart =
         ClaimPart::over("rotation", "", const { &[ClaimVariable::new("phase", "rad", 0.0, 6.5)] });
     identity(COVERED, distortion, |phase, factor| {
-        let (one, none) = (Series::one(), Series::zero());
+        let (one, none) = (IdentityJet::one(), IdentityJet::zero());
         let (cosine, sine) = (factor * phase.cos(), factor * phase.sin());
         let real = DescribingFunction { f0: none, p: one, q: none };
         let imaginary = DescribingFunction { f0: none, p: none, q: one };
@@ -224,7 +224,7 @@ const PHASES: [f64; 2] = [0.0, 6.5];
 fn prove_delays_add(distortion: Distortion) -> Verdict {
     const COVERED: ClaimPart = ClaimPart::named("delays-add");
     let values = |one, two| turned_twice::<Interval>(one, two, distortion);
-    let series = |one, two| turned_twice::<Series>(one, two, distortion);
+    let series = |one, two| turned_twice::<IdentityJet>(one, two, distortion);
     match prove_zero_of_two(values, series, [PHASES; 2], tolerance::PROOF, 20_000) {
         Ok(proved) => Verdict::Holds(Evidence::identity(COVERED, proved.bound.value(), proved.boxes)),
         Err(_) => Verdict::undecided("20000 cells for two phases"),

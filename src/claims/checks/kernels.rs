@@ -3,7 +3,7 @@
 use super::band::as_coded;
 use super::enclosure::no_function;
 use super::family::closed_is_integral;
-use super::single::Single;
+use super::single::SingleKernel;
 use super::{Budget, ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, claim, sample};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm};
 use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
@@ -12,17 +12,17 @@ use crate::proof::{NotProved, Proved};
 use std::sync::LazyLock;
 
 /// Makes a kernel from a breakpoint, a second breakpoint above it, a side and branches.
-type Make = fn(f64, f64, Side, Branches) -> Kernel<f64>;
+type KernelMaker = fn(f64, f64, Side, Branches) -> Kernel<f64>;
 
 /// Closed form times `factor` against quadrature, both sides, each branch, breakpoints on the sweep and beyond.
-fn kernel_is_integral(budget: Budget, make: Make, factor: f64) -> Verdict {
+fn kernel_is_integral(budget: Budget, make: KernelMaker, factor: f64) -> Verdict {
     sample(budget, |draw| {
         let (bias, amplitude) = (draw.uniform("bias", -1.0, 1.0), draw.uniform("amplitude", 0.5, 2.0));
         let at = draw.uniform("at", -3.0, 3.0);
         let upper = at + draw.uniform("width", 0.01, 3.0);
         let side = [Side::Above, Side::Below][draw.index("side", 2)];
         let branches = [Branches::Both, Branches::Rising, Branches::Falling][draw.index("branches", 3)];
-        let single = Single(make(at, upper, side, branches));
+        let single = SingleKernel(make(at, upper, side, branches));
         let sweep = Sinusoid::new(bias, amplitude).ok()?;
         closed_is_integral(draw, &single, &sweep, 10.0, factor)
     })
@@ -35,10 +35,10 @@ pub(super) const BREAKPOINT: ClaimPart = ClaimPart::over(
     const { &[ClaimVariable::number("u", -1.0, 1.0)] },
 );
 
-const STEP: Make = |at, _, side, branches| Kernel::Step { at, height: 1.0, side, branches };
-const RAMP: Make = |at, _, side, branches| Kernel::Ramp { at, slope: 1.0, side, branches };
-const SIGN: Make = |at, _, _, branches| Kernel::Sign { at, level: 1.0, branches };
-const BAND: Make = |lower, upper, _, _| Kernel::Band { origin: 0.3, lower, upper, slope: 1.0 };
+const STEP: KernelMaker = |at, _, side, branches| Kernel::Step { at, height: 1.0, side, branches };
+const RAMP: KernelMaker = |at, _, side, branches| Kernel::Ramp { at, slope: 1.0, side, branches };
+const SIGN: KernelMaker = |at, _, _, branches| Kernel::Sign { at, level: 1.0, branches };
+const BAND: KernelMaker = |lower, upper, _, _| Kernel::Band { origin: 0.3, lower, upper, slope: 1.0 };
 
 /// One line a claim: constant, id, statement, kernel and proof.
 macro_rules! kernels {
@@ -70,11 +70,11 @@ kernels! {
 }
 
 pub(super) fn prove_kernel(form: KernelForm, distortion: Distortion, part: ClaimPart) -> Verdict {
-    type Found = LazyLock<Result<Proved<1>, NotProved<1>>>;
-    static STEP: Found = LazyLock::new(|| KernelForm::Step.prove());
-    static RAMP: Found = LazyLock::new(|| KernelForm::Ramp.prove());
-    static SIGN: Found = LazyLock::new(|| KernelForm::Sign.prove());
-    static BAND: Found = LazyLock::new(|| KernelForm::Band.prove());
+    type ProvedKernel = LazyLock<Result<Proved<1>, NotProved<1>>>;
+    static STEP: ProvedKernel = LazyLock::new(|| KernelForm::Step.prove());
+    static RAMP: ProvedKernel = LazyLock::new(|| KernelForm::Ramp.prove());
+    static SIGN: ProvedKernel = LazyLock::new(|| KernelForm::Sign.prove());
+    static BAND: ProvedKernel = LazyLock::new(|| KernelForm::Band.prove());
     let verdict = |proved: &Result<Proved<1>, _>| match proved {
         Ok(proved) => Verdict::Holds(Evidence::identity(part.clone(), proved.bound.value(), proved.boxes)),
         Err(_) => Verdict::undecided("60000 cells at most"),
@@ -91,5 +91,5 @@ pub(super) fn prove_kernel(form: KernelForm, distortion: Distortion, part: Claim
 /// Closed form of a kernel under a unit sinusoid.
 pub(super) fn on_unit<T: Real>(kernel: Kernel<T>) -> DescribingFunction<T> {
     let sweep = Sinusoid::new(T::zero(), T::one()).ok();
-    sweep.and_then(|sweep| Single(kernel).describing_function(&sweep).ok()).unwrap_or_else(no_function)
+    sweep.and_then(|sweep| SingleKernel(kernel).describing_function(&sweep).ok()).unwrap_or_else(no_function)
 }

@@ -69,7 +69,7 @@ impl Lattice {
 
 /// Events of the machine.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Event {
+pub(super) enum MachineEvent {
     Abort,
     Sample {
         reading: f64,
@@ -104,7 +104,7 @@ pub(super) enum Defect {
 
 /// The motion as an onlooker sees it, while the machine runs.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Motion {
+pub(super) struct ObservedMotion {
     /// Position from which there is a way to go, and when that was gone last.
     anchor: f64,
     moved_s: f64,
@@ -115,7 +115,7 @@ pub(super) struct Motion {
     last_s: f64,
 }
 
-impl Motion {
+impl ObservedMotion {
     /// Half a half-width, or more than a step of the sensor: whether a position is at such a distance.
     pub(super) fn gone(&self, protocol: &Protocol<f64>, half_width: f64, position: f64) -> bool {
         (position - self.anchor).abs() >= half_width.min(1.5 * protocol.resolution.max(half_width / 3.0))
@@ -139,7 +139,7 @@ pub(super) struct Machine {
     pub(super) time_s: f64,
     /// Last reading and since when it has been the same, once there was a reading.
     pub(super) seen: Option<(f64, f64)>,
-    pub(super) motion: Motion,
+    pub(super) motion: ObservedMotion,
 }
 
 /// An observer with a given answer.
@@ -159,7 +159,7 @@ impl Machine {
             _ => lattice.protocol,
         };
         let supervisor = Supervisor::new(protocol).ok()?;
-        let (command, motion) = (supervisor.command(), Motion::default());
+        let (command, motion) = (supervisor.command(), ObservedMotion::default());
         Some(Self { supervisor, defect, command, time_s: 0.0, seen: None, motion })
     }
 
@@ -179,7 +179,7 @@ impl Machine {
         self.supervisor.farthest()
     }
     fn key(&self) -> (Key, [u64; 4]) {
-        let Motion { anchor, moved_s, longest_s, last_s, .. } = self.motion;
+        let ObservedMotion { anchor, moved_s, longest_s, last_s, .. } = self.motion;
         (self.supervisor.key(), [anchor, moved_s, longest_s, last_s].map(f64::to_bits))
     }
     pub(super) fn running(&self) -> bool {
@@ -187,17 +187,17 @@ impl Machine {
     }
 
     /// The machine after an event.
-    pub(super) fn after(mut self, event: Event) -> Self {
+    pub(super) fn after(mut self, event: MachineEvent) -> Self {
         match event {
-            Event::Abort => {
+            MachineEvent::Abort => {
                 if self.defect != Defect::IgnoresAbort || self.supervisor.attempt() == 1 {
                     self.supervisor.abort();
                 }
             }
-            Event::Tick { age_s } => {
+            MachineEvent::Tick { age_s } => {
                 let _ = self.supervisor.tick(self.time_s + age_s);
             }
-            Event::Sample { reading, interval_s, observation } => {
+            MachineEvent::Sample { reading, interval_s, observation } => {
                 // A first sample has none before it.
                 self.time_s = if self.seen.is_some() { self.time_s + interval_s } else { 0.0 };
                 let before = self.supervisor;
@@ -257,7 +257,7 @@ impl Machine {
 }
 
 /// A property that must hold of a machine and of all its successors; the successor that shows that it does not, or none for the machine.
-pub(super) type Property = fn(&Lattice, &Machine, &[(Event, Machine)]) -> Result<(), Option<usize>>;
+pub(super) type Property = fn(&Lattice, &Machine, &[(MachineEvent, Machine)]) -> Result<(), Option<usize>>;
 
 /// States beyond this are not waited for.
 const MOST_STATES: usize = 3_000_000;
@@ -272,7 +272,7 @@ fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict
         return Verdict::Undecided { spent: format!("{}: protocol refused", lattice.part.name) };
     };
     // State, its predecessor, and the event between.
-    let mut states: Vec<(Machine, usize, Event)> = vec![(start, 0, Event::Abort)];
+    let mut states: Vec<(Machine, usize, MachineEvent)> = vec![(start, 0, MachineEvent::Abort)];
     let mut visited = HashSet::from([start.key()]);
     let mut waiting = VecDeque::from([0]);
     let mut successors = Vec::new();
@@ -305,31 +305,31 @@ fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict
     Verdict::Holds(Evidence::exhausted(lattice.part.clone(), states.len()))
 }
 
-fn events<'a>(lattice: &'a Lattice, machine: &Machine) -> impl Iterator<Item = Event> + use<'a> {
+fn events<'a>(lattice: &'a Lattice, machine: &Machine) -> impl Iterator<Item = MachineEvent> + use<'a> {
     // The first sample's interval means nothing.
     let (sound, unsound) =
         if machine.seen.is_some() { INTERVALS_S.split_at(SOUND) } else { (&INTERVALS_S[..1], &INTERVALS_S[..0]) };
-    let sample = |reading, interval_s, observation| Event::Sample { reading, interval_s, observation };
+    let sample = |reading, interval_s, observation| MachineEvent::Sample { reading, interval_s, observation };
     let good = lattice.readings.iter().flat_map(move |&reading| {
         sound.iter().flat_map(move |&interval_s| OBSERVATIONS.map(|says| sample(reading, interval_s, says)))
     });
     // A sample that is refused is not observed.
     let late = unsound.iter().map(move |&interval_s| sample(lattice.readings[0], interval_s, OBSERVATIONS[0]));
     let broken = BROKEN.into_iter().map(move |reading| sample(reading, INTERVALS_S[0], OBSERVATIONS[0]));
-    let ticks = INTERVALS_S.into_iter().map(|age_s| Event::Tick { age_s });
-    good.chain(late).chain(broken).chain(ticks).chain([Event::Abort])
+    let ticks = INTERVALS_S.into_iter().map(|age_s| MachineEvent::Tick { age_s });
+    good.chain(late).chain(broken).chain(ticks).chain([MachineEvent::Abort])
 }
 
 /// The samples of a path, and the command at its end. `cycles_say` is 1 where a cycle ended, 2 where they are steady, 3
 /// where condition 40 fails.
-fn witness(path: &[(Event, Machine)]) -> Witness {
+fn witness(path: &[(MachineEvent, Machine)]) -> Witness {
     let mut numbers = Vec::new();
     for (step, (event, _)) in (1..).zip(path) {
         let mut number = |name: &str, value: f64| numbers.push((format!("{name}_{step}"), value));
         match *event {
-            Event::Abort => number("abort", 1.0),
-            Event::Tick { age_s } => number("tick_after_s", age_s),
-            Event::Sample { reading, interval_s, observation } => {
+            MachineEvent::Abort => number("abort", 1.0),
+            MachineEvent::Tick { age_s } => number("tick_after_s", age_s),
+            MachineEvent::Sample { reading, interval_s, observation } => {
                 number("reading", reading);
                 number("after_s", interval_s);
                 if observation != Observation::Between {

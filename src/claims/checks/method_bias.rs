@@ -27,7 +27,7 @@ const SMALL: f64 = 0.02;
 
 /// An orbit in units that keep it of order 1 as `g` goes to zero: lengths in `X_m`, times in the coordinate (linear
 /// drag) or its square root (quadratic drag).
-struct Shape<T> {
+struct ScaledOrbit<T> {
     /// `X_m` over the square of the unit of time: the true alpha in these units.
     alpha: T,
     period: T,
@@ -79,7 +79,7 @@ impl SymmetricOrbit {
     }
 }
 
-impl<T: Real> Shape<T> {
+impl<T: Real> ScaledOrbit<T> {
     /// The errors of the method's parameters from the half-width and the period.
     fn error(&self, law: SymmetricOrbit, read: impl Fn(T, T) -> Option<Parameters<T>>) -> Option<MethodError<T>> {
         let alpha = read(self.share, self.period)?.alpha / self.alpha;
@@ -117,15 +117,15 @@ fn log_cosh<T: Real>(t: T) -> T {
 }
 
 /// `X_m = ln(cosh z)`, `T = 4 z`, `x_a = z - tanh z`, the integral of tanh squared.
-fn linear_orbit<T: Real>(z: T) -> Shape<T> {
+fn linear_orbit<T: Real>(z: T) -> ScaledOrbit<T> {
     let share = (z - z.tanh()) / log_cosh(z);
-    Shape { alpha: log_cosh(z) / z.square(), period: T::from_f64(4.0), share, share_rate: share / z }
+    ScaledOrbit { alpha: log_cosh(z) / z.square(), period: T::from_f64(4.0), share, share_rate: share / z }
 }
 
 /// `X_m = t/2`, `x_a = ln(cosh t)/2`, `T = 2 (atan s + atanh s)` with `s^2 = tanh t`.
-fn quadratic_orbit<T: Real>(t: T) -> Shape<T> {
+fn quadratic_orbit<T: Real>(t: T) -> ScaledOrbit<T> {
     let share = log_cosh(t) / t;
-    Shape { alpha: T::from_f64(0.5), period: T::two() * turn(t) / t.sqrt(), share, share_rate: share / t }
+    ScaledOrbit { alpha: T::from_f64(0.5), period: T::two() * turn(t) / t.sqrt(), share, share_rate: share / t }
 }
 
 /// `atan s + atanh s`; `atanh s = ln(1 + s) + (t + ln(cosh t))/2`, since `1 - tanh t = exp(-t)/cosh t`.
@@ -135,19 +135,19 @@ fn turn<T: Real>(t: T) -> T {
 }
 
 /// [`linear_orbit`] over a range; `x_a/X_m` grows with z (`orbit-amplitude-monotone-linear`).
-fn linear_shape(z: Interval) -> Shape<Interval> {
+fn linear_shape(z: Interval) -> ScaledOrbit<Interval> {
     let period = Interval::point(4.0);
     if z.upper() <= SMALL {
         let alpha = tanh_ratio(z) / Interval::two();
         let share_rate = tanh_ratio(z).square() / (Interval::point(3.0) * alpha);
-        return Shape { alpha, period, share: z * share_rate, share_rate };
+        return ScaledOrbit { alpha, period, share: z * share_rate, share_rate };
     }
     let share = increasing(z, |z| linear_orbit(z).share);
-    Shape { alpha: increasing(z, log_cosh) / z.square(), period, share, share_rate: share / z }
+    ScaledOrbit { alpha: increasing(z, log_cosh) / z.square(), period, share, share_rate: share / z }
 }
 
 /// [`quadratic_orbit`] over a range; `x_a/X_m` grows with t (`orbit-amplitude-monotone-quadratic`).
-fn quadratic_shape(t: Interval) -> Shape<Interval> {
+fn quadratic_shape(t: Interval) -> ScaledOrbit<Interval> {
     let (two, alpha) = (Interval::two(), Interval::point(0.5));
     if t.upper() <= SMALL {
         // atan s + atanh s = 2 s (1 + s^4/5 + s^8/9 + ...) with s^2 = tanh t.
@@ -155,8 +155,8 @@ fn quadratic_shape(t: Interval) -> Shape<Interval> {
         let tail = (fourth / (Interval::point(5.0) * (Interval::ONE - fourth))).hull(Interval::ZERO);
         let period = two * two * ratio.sqrt() * (Interval::ONE + tail);
         let share_rate = ratio / two;
-        return Shape { alpha, period, share: t * share_rate, share_rate };
+        return ScaledOrbit { alpha, period, share: t * share_rate, share_rate };
     }
     let share = increasing(t, |t| quadratic_orbit(t).share);
-    Shape { alpha, period: two * increasing(t, turn) / t.sqrt(), share, share_rate: share / t }
+    ScaledOrbit { alpha, period: two * increasing(t, turn) / t.sqrt(), share, share_rate: share / t }
 }

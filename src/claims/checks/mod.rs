@@ -16,7 +16,7 @@ mod single;
 mod step;
 mod vehicle_proofs;
 
-pub(super) use single::Single;
+pub(super) use single::SingleKernel;
 
 pub(super) mod autotune;
 pub(super) mod bounded;

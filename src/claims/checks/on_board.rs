@@ -1,7 +1,7 @@
 //! The state machine of the experiment on board, every state of it over a lattice of readings and times.
 
 use super::claim;
-use super::machine::{Defect, Event, INTERVALS_S, LATTICES, Lattice, Machine, SOUND, WITH_COARSE, explore};
+use super::machine::{Defect, INTERVALS_S, LATTICES, Lattice, Machine, MachineEvent, SOUND, WITH_COARSE, explore};
 use crate::on_board::{Coordinate, Observation, Phase, Protocol};
 
 /// A property of every state of the machine, and a defect that takes it away.
@@ -22,13 +22,14 @@ explored! {
     ends over LATTICES, but not Restarts
 }
 
-fn ends(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
+fn ends(lattice: &Lattice, machine: &Machine, successors: &[(MachineEvent, Machine)]) -> Result<(), Option<usize>> {
     let duration_s = lattice.protocol.duration_s;
     for (index, (event, after)) in successors.iter().enumerate() {
         // A running machine has accepted its sample, which was later than the sample before: there are finitely many.
-        let later = matches!(event, Event::Sample { .. }) && (after.time_s > machine.time_s || machine.seen.is_none());
+        let later =
+            matches!(event, MachineEvent::Sample { .. }) && (after.time_s > machine.time_s || machine.seen.is_none());
         let in_time = match *event {
-            Event::Tick { age_s } => machine.seen.is_none() || machine.time_s + age_s < duration_s,
+            MachineEvent::Tick { age_s } => machine.seen.is_none() || machine.time_s + age_s < duration_s,
             _ => later && after.time_s < duration_s,
         };
         if after.running() && !in_time {
@@ -47,7 +48,7 @@ explored! {
     switches over LATTICES, but not NoHysteresis
 }
 
-fn switches(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
+fn switches(lattice: &Lattice, machine: &Machine, successors: &[(MachineEvent, Machine)]) -> Result<(), Option<usize>> {
     let (protocol, neutral) = (&lattice.protocol, lattice.protocol.neutral_command);
     let Some(before) = machine.position().filter(|_| machine.running()) else { return Ok(()) };
     for (index, (_, after)) in successors.iter().enumerate() {
@@ -76,10 +77,10 @@ explored! {
     abort over LATTICES, but not IgnoresAbort
 }
 
-fn abort(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
+fn abort(lattice: &Lattice, machine: &Machine, successors: &[(MachineEvent, Machine)]) -> Result<(), Option<usize>> {
     let safe = |after: &Machine| !after.running() && after.command == lattice.protocol.neutral_command;
     let wrong = successors.iter().position(|(event, after)| match event {
-        Event::Abort => !safe(after),
+        MachineEvent::Abort => !safe(after),
         _ => machine.phase() == Phase::Aborted && (after.phase() != Phase::Aborted || !safe(after)),
     });
     wrong.map_or(Ok(()), |index| Err(Some(index)))
@@ -91,7 +92,7 @@ explored! {
     limits over LATTICES, but not Unclamped
 }
 
-fn limits(lattice: &Lattice, machine: &Machine, _: &[(Event, Machine)]) -> Result<(), Option<usize>> {
+fn limits(lattice: &Lattice, machine: &Machine, _: &[(MachineEvent, Machine)]) -> Result<(), Option<usize>> {
     let protocol = &lattice.protocol;
     let within = (protocol.lowest_command..=protocol.highest_command).contains(&machine.command);
     let neutral = machine.running() && machine.seen.is_some() || machine.command == protocol.neutral_command;
@@ -107,12 +108,12 @@ explored! {
 /// Faults of sensor and clock, rather than of the experiment.
 const OF_A_SAMPLE: [&str; 7] = ["not-finite", "time-order", "gap", "jump", "stuck", "excursion", "wrong-way"];
 
-fn faults(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
+fn faults(lattice: &Lattice, machine: &Machine, successors: &[(MachineEvent, Machine)]) -> Result<(), Option<usize>> {
     let wrong = successors.iter().position(|(event, after)| {
         let expected = match *event {
-            Event::Sample { reading, interval_s, .. } => expected(lattice, machine, reading, interval_s),
-            Event::Tick { age_s } => expected_of_time(machine, age_s),
-            Event::Abort => return false,
+            MachineEvent::Sample { reading, interval_s, .. } => expected(lattice, machine, reading, interval_s),
+            MachineEvent::Tick { age_s } => expected_of_time(machine, age_s),
+            MachineEvent::Abort => return false,
         };
         let found = match after.phase() {
             Phase::Failed(fault) if OF_A_SAMPLE.contains(&fault.code()) => Some(fault.code()),
@@ -191,12 +192,14 @@ explored! {
     still over WITH_COARSE, but not Restless
 }
 
-fn still(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
+fn still(lattice: &Lattice, machine: &Machine, successors: &[(MachineEvent, Machine)]) -> Result<(), Option<usize>> {
     let protocol = &lattice.protocol;
     let Some(_) = machine.seen.filter(|_| machine.running()) else { return Ok(()) };
     let level = |machine: &Machine| (machine.command - protocol.neutral_command).abs();
     let wrong = successors.iter().position(|(event, after)| {
-        let (Event::Sample { observation, .. }, Some(position)) = (event, after.position()) else { return false };
+        let (MachineEvent::Sample { observation, .. }, Some(position)) = (event, after.position()) else {
+            return false;
+        };
         let gone = machine.motion.gone(protocol, machine.half_width(), position);
         let late = !gone && machine.motion.still(protocol, after.time_s);
         let named = matches!(after.phase(), Phase::Failed(fault) if fault.code() == "no-motion");
@@ -215,7 +218,11 @@ explored! {
 
 /// Every sequence of readings comes, those of a plant of the wrong sign, a stuck or a late plant, and a sensor that
 /// wanders too. The coordinate is the reading: a wandering sensor adds its error.
-fn excursion(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
+fn excursion(
+    lattice: &Lattice,
+    machine: &Machine,
+    successors: &[(MachineEvent, Machine)],
+) -> Result<(), Option<usize>> {
     let protocol = &lattice.protocol;
     let drives = |machine: &Machine| machine.command != protocol.neutral_command;
     let within = |position: f64| (position - protocol.reference).abs() <= protocol.largest_excursion;
@@ -225,10 +232,10 @@ fn excursion(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine
     // Between samples it is driven for no longer than a gap: a tick or a sample that comes later ends it.
     let longest_s = Protocol::<f64>::LONGEST_GAP * protocol.interval_s;
     let wrong = successors.iter().position(|(event, after)| match *event {
-        Event::Sample { interval_s: age_s, .. } | Event::Tick { age_s } => {
+        MachineEvent::Sample { interval_s: age_s, .. } | MachineEvent::Tick { age_s } => {
             machine.seen.is_some() && drives(after) && !(age_s <= longest_s)
         }
-        Event::Abort => drives(after),
+        MachineEvent::Abort => drives(after),
     });
     wrong.map_or(Ok(()), |index| Err(Some(index)))
 }

@@ -13,7 +13,7 @@ use crate::orbit::{limit_cycle, return_slope};
 use crate::plant::DragAxis;
 use crate::proof::inequality::Inequality;
 use crate::proof::margin::Margin;
-use crate::proof::margin::{Cell, VARIABLES};
+use crate::proof::margin::{VARIABLES, VariableBox};
 use crate::proof::polynomial::Rational;
 use crate::proof::{Extent, NotProved, formula};
 
@@ -169,7 +169,7 @@ macro_rules! within {
             statement: concat!("the relative error is within ", stringify!($radius), " of ", stringify!($centre)),
             variables: [Extent::new("coordinate", $from, $to), Extent::NONE, Extent::NONE],
             margin: Margin::Curve {
-                over: |at: &Cell| match SymmetricOrbit::$law.error(at[0]) {
+                over: |at: &VariableBox| match SymmetricOrbit::$law.error(at[0]) {
                     Some(error) => Interval::point($radius) - (error.$part - Interval::point($centre)).abs(),
                     None => Interval::ENTIRE,
                 },

@@ -13,7 +13,7 @@ use crate::plant::{DragAxis, PlantError, TransferFunction};
 use crate::proof::polynomial::Rational;
 
 /// A drag law with a single coefficient.
-struct Family {
+struct SingleDrag {
     law: fn(alpha: f64, drag: f64) -> Result<DragAxis<f64>, PlantError>,
     /// The number `g` that everything depends on, over the half-width.
     group: fn(alpha: f64, drag: f64, level: f64) -> f64,
@@ -21,14 +21,14 @@ struct Family {
 }
 
 /// Force proportional to speed: `g = x_a beta^2/(C alpha)`.
-const LINEAR: Family = Family {
+const LINEAR: SingleDrag = SingleDrag {
     law: DragAxis::linear,
     group: |alpha, drag, level| drag * drag / (level * alpha),
     drag_of: |parameters| parameters.beta,
 };
 
 /// Force proportional to speed squared: `g = x_a beta/alpha`.
-const QUADRATIC: Family = Family {
+const QUADRATIC: SingleDrag = SingleDrag {
     law: DragAxis::quadratic,
     group: |alpha, drag, _| drag / alpha,
     drag_of: |parameters| parameters.beta_quadratic,
@@ -37,7 +37,7 @@ const QUADRATIC: Family = Family {
 const EVERY_AXIS: ClaimPart = ClaimPart::named("every-axis");
 
 /// An axis with its relay.
-struct Loop {
+struct SingleDragLoop {
     alpha: f64,
     drag: f64,
     level: f64,
@@ -46,16 +46,16 @@ struct Loop {
     relay: RelayHysteresis<f64>,
 }
 
-impl Loop {
+impl SingleDragLoop {
     /// From its four numbers; `None` for a value out of range.
-    fn new(family: &Family, alpha: f64, drag: f64, level: f64, half_width: f64) -> Option<Self> {
+    fn new(family: &SingleDrag, alpha: f64, drag: f64, level: f64, half_width: f64) -> Option<Self> {
         let axis = (family.law)(alpha, drag).ok()?;
         let relay = RelayHysteresis::new(level, half_width, 0.0).ok()?;
         Some(Self { alpha, drag, level, half_width, axis, relay })
     }
 
     /// Any scale, and `g` anywhere in six decades.
-    fn draw(draw: &mut Draw, family: &Family) -> Option<Self> {
+    fn draw(draw: &mut Draw, family: &SingleDrag) -> Option<Self> {
         let (alpha, drag) = (draw.log_uniform("alpha", 1e-2, 1e2), draw.log_uniform("drag", 1e-2, 1e2));
         let (level, g) = (draw.log_uniform("level", 1e-2, 1e2), draw.log_uniform("g", 1e-4, 1e2));
         let half_width = draw.note("half_width", g / (family.group)(alpha, drag, level));
@@ -107,7 +107,7 @@ claim! {
 }
 
 /// Amplitude and period from `z - tanh z = g`, solved by bisection in z.
-fn linear_orbit(l: &Loop, quarter: f64) -> (f64, f64) {
+fn linear_orbit(l: &SingleDragLoop, quarter: f64) -> (f64, f64) {
     let g = l.half_width * l.drag * l.drag / (l.level * l.alpha);
     let (mut low, mut high) = (0.0, g + 1.0 + libm::cbrt(3.0 * g));
     for _ in 0..200 {
@@ -119,9 +119,9 @@ fn linear_orbit(l: &Loop, quarter: f64) -> (f64, f64) {
 }
 
 /// The general path through Newton's method gives the closed form of the symmetric case.
-fn closed_form_orbit(budget: Budget, orbit: fn(&Loop) -> (f64, f64), family: &Family) -> Verdict {
+fn closed_form_orbit(budget: Budget, orbit: fn(&SingleDragLoop) -> (f64, f64), family: &SingleDrag) -> Verdict {
     sample(budget, |draw| {
-        let case = Loop::draw(draw, family)?;
+        let case = SingleDragLoop::draw(draw, family)?;
         let Ok(cycle) = limit_cycle(&case.axis, &case.relay) else { return Some(Case::truth(false)) };
         let (amplitude, period_s) = orbit(&case);
         let equations = [
@@ -134,9 +134,9 @@ fn closed_form_orbit(budget: Budget, orbit: fn(&Loop) -> (f64, f64), family: &Fa
 }
 
 /// From any speed the return map moves towards the cycle's and never past it, with a slope in (0, 1) at the cycle.
-fn attracts(budget: Budget, family: &Family) -> Verdict {
+fn attracts(budget: Budget, family: &SingleDrag) -> Verdict {
     sample(budget, |draw| {
-        let case = Loop::draw(draw, family)?;
+        let case = SingleDragLoop::draw(draw, family)?;
         let Ok(cycle) = limit_cycle(&case.axis, &case.relay) else { return Some(Case::truth(false)) };
         let fixed = cycle.upper_switch.velocity;
         let start = fixed * draw.log_uniform("start_over_fixed", 1e-3, 1e3);
@@ -212,13 +212,13 @@ claim! {
         corrected: Some(|budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.0)
             .and(|| depends_on_g_alone(budget, &QUADRATIC, &QUADRATIC, 0.0))),
         // The number `g` of the wrong drag law.
-        falsified: |budget| depends_on_g_alone(budget, &LINEAR, &Family { group: QUADRATIC.group, ..LINEAR }, 0.0),
+        falsified: |budget| depends_on_g_alone(budget, &LINEAR, &SingleDrag { group: QUADRATIC.group, ..LINEAR }, 0.0),
         hypotheses: &[Hypothesis::needed("no-disturbance", |budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.5))],
     }
 }
 
 /// Relative errors (alpha, drag) of the method on the exact orbit of a loop, with a disturbance as a share of the level.
-fn method_errors(case: &Loop, family: &Family, disturbance: f64) -> Option<[f64; 2]> {
+fn method_errors(case: &SingleDragLoop, family: &SingleDrag, disturbance: f64) -> Option<[f64; 2]> {
     let cycle = limit_cycle(&case.axis.with_disturbance(disturbance * case.level).ok()?, &case.relay).ok()?;
     let read = Oscillation {
         relay_level: case.level,
@@ -234,11 +234,11 @@ fn method_errors(case: &Loop, family: &Family, disturbance: f64) -> Option<[f64;
 
 /// The method's errors on a random loop, disturbed, equal those on the loop of unit parameters whose half-width is `g`
 /// as `assumed` has it.
-fn depends_on_g_alone(budget: Budget, family: &Family, assumed: &Family, disturbance: f64) -> Verdict {
+fn depends_on_g_alone(budget: Budget, family: &SingleDrag, assumed: &SingleDrag, disturbance: f64) -> Verdict {
     sample(budget, |draw| {
-        let case = Loop::draw(draw, family)?;
+        let case = SingleDragLoop::draw(draw, family)?;
         let g = case.half_width * (assumed.group)(case.alpha, case.drag, case.level);
-        let unit = Loop::new(family, 1.0, 1.0, 1.0, g);
+        let unit = SingleDragLoop::new(family, 1.0, 1.0, 1.0, g);
         let share = draw.uniform("disturbance_over_level", 0.5, 1.0) * disturbance;
         let errors = method_errors(&case, family, share).zip(unit.and_then(|unit| method_errors(&unit, family, 0.0)));
         let Some((drawn, unit)) = errors else { return Some(Case::truth(false)) };

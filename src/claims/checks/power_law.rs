@@ -41,7 +41,7 @@ fn power_law(distortion: Distortion) -> Verdict {
     }
     let (mut bound, mut boxes) = (0.0_f64, 0);
     for exponent in EXPONENTS {
-        let Ok(error) = Law { exponent, factor: distortion.factor() }.error(&mut boxes) else {
+        let Ok(error) = PowerLaw { exponent, factor: distortion.factor() }.error(&mut boxes) else {
             return Verdict::undecided("quadrature");
         };
         bound = bound.max(error);
@@ -122,12 +122,12 @@ fn steepest_beyond(p: Interval, value: Interval, slope: Interval) -> Interval {
 }
 
 /// A power law and its closed form, made false unless the factor is 1.
-struct Law {
+struct PowerLaw {
     exponent: f64,
     factor: f64,
 }
 
-impl Law {
+impl PowerLaw {
     /// Bound of the error of m and h at every bias, relative to the largest output.
     fn error(&self, boxes: &mut usize) -> Result<f64, Box<dyn std::error::Error>> {
         let p = number(self.exponent);

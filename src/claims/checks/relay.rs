@@ -12,7 +12,7 @@ use crate::numeric::Real;
 use crate::proof::polynomial::Rational;
 
 /// A relay, an input that switches it, and the describing function by quadrature.
-struct Switching {
+struct SwitchedRelay {
     level: f64,
     half_width: f64,
     offset: f64,
@@ -21,20 +21,20 @@ struct Switching {
     integral: DescribingFunction<f64>,
 }
 
-fn switching(draw: &mut Draw) -> Option<Switching> {
+fn switching(draw: &mut Draw) -> Option<SwitchedRelay> {
     let (level, half_width) = (draw.uniform("level", 0.1, 3.0), draw.uniform("half_width", 0.0, 2.0));
     let (offset, bias) = (draw.uniform("offset", -1.0, 1.0), draw.uniform("bias", -2.0, 2.0));
     let amplitude = draw.note("amplitude", (half_width + bias.abs()) * 1.0001) + draw.uniform("excess", 0.0, 3.0);
     let relay = RelayHysteresis::new(level, half_width, offset).ok()?;
     let integral = by_quadrature(&relay, &Sinusoid::new(bias, amplitude).ok()?).ok()?;
-    Some(Switching { level, half_width, offset, bias, amplitude, integral })
+    Some(SwitchedRelay { level, half_width, offset, bias, amplitude, integral })
 }
 
 /// A formula for a part of the describing function against its integral.
 fn formula(
     budget: Budget,
     part: fn(&DescribingFunction<f64>) -> f64,
-    formula: fn(&Switching) -> f64,
+    formula: fn(&SwitchedRelay) -> f64,
     gain: bool,
 ) -> Verdict {
     sample(budget, |draw| {
@@ -78,7 +78,7 @@ claim! {
     }
 }
 
-fn in_phase(s: &Switching, bias: f64) -> f64 {
+fn in_phase(s: &SwitchedRelay, bias: f64) -> f64 {
     let root = |distance: f64| (1.0 - (distance / s.amplitude).powi(2)).sqrt();
     2.0 * s.level / (PI * s.amplitude) * (root(s.half_width - bias) + root(s.half_width + bias))
 }

@@ -4,9 +4,9 @@ use crate::nonlinearity::{Branch, Branches, Kernel, PiecewiseLinear, Side, Sinus
 use crate::numeric::Real;
 
 /// A kernel, by itself a characteristic; only its values are written here.
-pub(in crate::claims) struct Single<T>(pub(in crate::claims) Kernel<T>);
+pub(in crate::claims) struct SingleKernel<T>(pub(in crate::claims) Kernel<T>);
 
-impl<T: Real> PiecewiseLinear for Single<T> {
+impl<T: Real> PiecewiseLinear for SingleKernel<T> {
     type Number = T;
 
     fn value(&self, x: T, branch: Branch, _: &Sinusoid<T>) -> T {

@@ -8,7 +8,7 @@ use super::{Budget, ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, cla
 use crate::describing::ClosedForm;
 use crate::nonlinearity::{Arctan, Branch, NonlinearityError, Sine, Sinh, Sinusoid, Tanh};
 use crate::numeric::{Interval, Real};
-use crate::proof::identity::{Series, prove_zero_of_two};
+use crate::proof::identity::{IdentityJet, prove_zero_of_two};
 
 /// Bound asked of the finite mean less the integral.
 const RULE: f64 = 1e-13;
@@ -44,7 +44,7 @@ fn error<T: Real>(
     [factor * closed.f0 - mean / count, factor * amplitude * closed.p - T::two() * component / count]
 }
 
-impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = Series>> Smooth<V, S> {
+impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = IdentityJet>> Smooth<V, S> {
     /// Bound of the error of a mean over `2 nodes` equally spaced angles: `2 M/(exp(2 nodes a) - 1)` for a function below M
     /// where the angle's imaginary part is within a (Trefethen, Weideman 2014, theorem 3.2).
     fn rule_error(&self, nodes: usize, [bias, amplitude]: [[f64; 2]; 2]) -> Interval {
@@ -67,7 +67,7 @@ impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = Series>> Smooth<V,
             error(values, &cosines, |number| number, [bias, amplitude], distortion.at(bias, domain[0]))
         };
         let series = |bias, amplitude| {
-            error(series, &cosines, Series::constant, [bias, amplitude], distortion.at(bias, domain[0]))
+            error(series, &cosines, IdentityJet::constant, [bias, amplitude], distortion.at(bias, domain[0]))
         };
         match prove_zero_of_two(values, series, domain, tolerance::PROOF, CELLS) {
             Ok(proved) => {
@@ -85,7 +85,7 @@ impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = Series>> Smooth<V,
 }
 
 const UNIT: Interval = Interval::ONE;
-const ONE: Series = Series::constant(UNIT);
+const ONE: IdentityJet = IdentityJet::constant(UNIT);
 
 /// `abs(sin(x + iy)) <= cosh y`.
 fn sine(distortion: Distortion) -> Verdict {

@@ -36,7 +36,7 @@ pub(super) fn by_steps(distortion: Distortion, parts: &'static [ClaimPart]) -> V
 #[cfg(test)]
 mod tests {
     use super::{RATE, falls};
-    use crate::claims::checks::single::Single;
+    use crate::claims::checks::single::SingleKernel;
     use crate::describing::{KernelForm, by_quadrature};
     use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
 
@@ -54,7 +54,7 @@ mod tests {
     fn the_slope_is_that_of_the_integral() {
         let mean = |phi: f64| {
             let kernel = Kernel::Step { at: phi.cos(), height: 1.0, side: Side::Above, branches: Branches::Rising };
-            by_quadrature(&Single(kernel), &Sinusoid::new(0.0, 1.0).unwrap()).unwrap().f0
+            by_quadrature(&SingleKernel(kernel), &Sinusoid::new(0.0, 1.0).unwrap()).unwrap().f0
         };
         for phi in [0.1, 0.7, 1.5, 2.9] {
             let slope: [f64; 3] = KernelForm::Step.slope(phi);

@@ -18,12 +18,12 @@ fn few(budget: Budget) -> Budget {
 }
 
 /// A plant with lags, with or without an integrator, under a relay whose levels may be offset.
-struct Loop {
+struct LaggedLoop {
     integrating: bool,
     offset: bool,
 }
 
-impl Loop {
+impl LaggedLoop {
     /// Its exact orbits with a single switching each way, and the reference.
     fn orbits(&self, draw: &mut Draw) -> Option<(Vec<ListedOrbit>, f64)> {
         let (first, second) = (draw.log_uniform("first_lag_s", 0.3, 3.0), draw.log_uniform("second_lag_s", 0.3, 3.0));
@@ -60,7 +60,7 @@ fn symmetry(draw: &mut Draw, orbit: &ListedOrbit, centre: f64) -> Case {
 }
 
 /// Every orbit is symmetric.
-fn symmetric(budget: Budget, family: &Loop) -> Verdict {
+fn symmetric(budget: Budget, family: &LaggedLoop) -> Verdict {
     sample(few(budget), |draw| {
         let (orbits, reference) = family.orbits(draw)?;
         let centre = if family.integrating { reference } else { 0.0 };
@@ -69,7 +69,7 @@ fn symmetric(budget: Budget, family: &Loop) -> Verdict {
 }
 
 /// No orbit is symmetric: the margin is the least difference of times, as a share of the period.
-fn asymmetric(budget: Budget, family: &Loop) -> Verdict {
+fn asymmetric(budget: Budget, family: &LaggedLoop) -> Verdict {
     sample(few(budget), |draw| {
         let (orbits, _) = family.orbits(draw)?;
         let skew = |orbit: &ListedOrbit| skew_s(orbit).abs().lower() / orbit.period_s.upper() - tolerance::CANCELLING;
@@ -123,15 +123,15 @@ claim! {
     "Odd, nondecreasing and not zero inside the sweep: symmetric about any constant reference if the process integrates, and about none but zero if not" {
         printed: AsPrinted::Refuted(odd_and_astatic_without_bias),
         corrected: Some(|budget| {
-            symmetric(budget, &Loop { integrating: true, offset: false })
-                .and(|| asymmetric(budget, &Loop { integrating: false, offset: false }))
+            symmetric(budget, &LaggedLoop { integrating: true, offset: false })
+                .and(|| asymmetric(budget, &LaggedLoop { integrating: false, offset: false }))
         }),
         // A reference that does not matter without an integrator either.
-        falsified: |budget| symmetric(budget, &Loop { integrating: false, offset: false }),
+        falsified: |budget| symmetric(budget, &LaggedLoop { integrating: false, offset: false }),
         proof: Some(prove_theorem_2),
         hypotheses: &[
-            Hypothesis::needed("integrating", |budget| symmetric(budget, &Loop { integrating: false, offset: false })),
-            Hypothesis::needed("odd", |budget| symmetric(budget, &Loop { integrating: true, offset: true })),
+            Hypothesis::needed("integrating", |budget| symmetric(budget, &LaggedLoop { integrating: false, offset: false })),
+            Hypothesis::needed("odd", |budget| symmetric(budget, &LaggedLoop { integrating: true, offset: true })),
             Hypothesis::needed("nondecreasing", odd_and_astatic_without_bias),
             Hypothesis::stated("not-zero-inside-sweep"),
         ],
@@ -178,13 +178,13 @@ claim! {
     "Integrating process: an even part of one sign makes the self-oscillations asymmetric; an odd nondecreasing characteristic keeps them symmetric" {
         printed: AsPrinted::Refuted(not_odd_and_symmetric),
         corrected: Some(|budget| {
-            asymmetric(budget, &Loop { integrating: true, offset: true })
-                .and(|| symmetric(budget, &Loop { integrating: true, offset: false }))
+            asymmetric(budget, &LaggedLoop { integrating: true, offset: true })
+                .and(|| symmetric(budget, &LaggedLoop { integrating: true, offset: false }))
         }),
-        falsified: |budget| asymmetric(budget, &Loop { integrating: true, offset: false }),
+        falsified: |budget| asymmetric(budget, &LaggedLoop { integrating: true, offset: false }),
         proof: Some(prove_theorem_3),
         hypotheses: &[
-            Hypothesis::needed("integrating", |budget| symmetric(budget, &Loop { integrating: false, offset: false })),
+            Hypothesis::needed("integrating", |budget| symmetric(budget, &LaggedLoop { integrating: false, offset: false })),
             Hypothesis::needed("even-part-of-one-sign", not_odd_and_astatic_with_bias),
         ],
     }

@@ -46,14 +46,14 @@ fn bilinear(budget: Budget, seen: f64, least: f64) -> Verdict {
 
 /// A direction of a thruster: thrust grows from zero.
 #[derive(Clone, Copy)]
-struct Curve {
+struct ThrustCurve {
     quadratic: f64,
     linear: f64,
     dead_zone: f64,
     limit: f64,
 }
 
-impl Curve {
+impl ThrustCurve {
     fn draw(draw: &mut Draw, simplest: bool) -> Self {
         let (quadratic, dead_zone) = (draw.log_uniform("a", 1e-5, 1e-3), draw.uniform("dead_zone", 5.0, 30.0));
         let linear = if simplest { 0.0 } else { draw.log_uniform("b", 1e-3, 1e-1) };
@@ -79,7 +79,7 @@ enum Commands {
 }
 
 impl Commands {
-    fn draw(self, draw: &mut Draw, curve: &Curve) -> f64 {
+    fn draw(self, draw: &mut Draw, curve: &ThrustCurve) -> f64 {
         match self {
             Self::Turning => draw.uniform("command", curve.dead_zone, curve.limit),
             Self::Standing => draw.uniform("command", 0.1, curve.dead_zone),
@@ -106,14 +106,14 @@ claim! {
     }
 }
 
-fn inverse(curve: &Curve, thrust_n: f64) -> f64 {
+fn inverse(curve: &ThrustCurve, thrust_n: f64) -> f64 {
     curve.side().and_then(|side| Thruster::asymmetric(side, side).command(thrust_n).ok()).unwrap_or(f64::NAN)
 }
 
 /// Eq. 2 both ways, and back by `inverse`.
-fn affine(budget: Budget, commands: Commands, inverse: fn(&Curve, f64) -> f64) -> Verdict {
+fn affine(budget: Budget, commands: Commands, inverse: fn(&ThrustCurve, f64) -> f64) -> Verdict {
     sample(budget, |draw| {
-        let curve = Curve::draw(draw, false);
+        let curve = ThrustCurve::draw(draw, false);
         let command = commands.draw(draw, &curve);
         let thruster = Thruster::affine(curve.quadratic, curve.linear, curve.dead_zone, curve.limit).ok()?;
         let thrust = curve.thrust(command);
@@ -129,7 +129,7 @@ fn affine(budget: Budget, commands: Commands, inverse: fn(&Curve, f64) -> f64) -
 
 fn simplest(budget: Budget) -> Verdict {
     sample(budget, |draw| {
-        let curve = Curve::draw(draw, true);
+        let curve = ThrustCurve::draw(draw, true);
         let thrust = curve.thrust(Commands::Turning.draw(draw, &curve));
         let root = (thrust / curve.quadratic).sqrt();
         Some(draw.equal(("command_found", inverse(&curve, -thrust)), -root, root, tolerance::ROUNDING))
@@ -139,7 +139,7 @@ fn simplest(budget: Budget) -> Verdict {
 /// A thrust that falls before the limit has two commands: such a thruster is refused.
 fn falling(budget: Budget) -> Verdict {
     sample(budget, |draw| {
-        let mut curve = Curve::draw(draw, false);
+        let mut curve = ThrustCurve::draw(draw, false);
         curve.quadratic = draw.note("a", -0.6 * curve.linear / curve.limit);
         Some(Case::truth(curve.side().is_some()))
     })
@@ -157,7 +157,7 @@ claim! {
 
 fn asymmetric(budget: Budget, forward_only: bool) -> Verdict {
     sample(budget, |draw| {
-        let (ahead, astern) = (Curve::draw(draw, false), Curve::draw(draw, false));
+        let (ahead, astern) = (ThrustCurve::draw(draw, false), ThrustCurve::draw(draw, false));
         let (forward, backward) = (ahead.side()?, astern.side()?);
         let thruster = Thruster::asymmetric(forward, if forward_only { forward } else { backward });
         let mut case = Case::truth(thruster.thrust(0.0) == 0.0);
@@ -241,10 +241,10 @@ fn compensation(budget: Budget, chain: &Chain) -> Verdict {
     const ARM_M: f64 = 0.08;
     const LARGEST_N_M: f64 = 0.1;
     sample(budget, |draw| {
-        let (ahead, astern) = (Curve::draw(draw, false), Curve::draw(draw, false));
+        let (ahead, astern) = (ThrustCurve::draw(draw, false), ThrustCurve::draw(draw, false));
         let thruster = |factor: f64| {
-            let scaled = |curve: Curve| {
-                Curve { quadratic: factor * curve.quadratic, linear: factor * curve.linear, ..curve }.side()
+            let scaled = |curve: ThrustCurve| {
+                ThrustCurve { quadratic: factor * curve.quadratic, linear: factor * curve.linear, ..curve }.side()
             };
             Some(Thruster::asymmetric(scaled(ahead)?, scaled(astern)?))
         };

@@ -7,7 +7,7 @@ use crate::numeric::significant;
 
 /// A form of the gains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Form {
+pub(super) enum GainForm {
     /// u = Kp e + Ki int e + Kd de/dt
     Parallel,
     /// u = K (e + int e/Ti + Td de/dt), the ISA form
@@ -24,7 +24,7 @@ pub(super) enum Form {
     Esphome,
 }
 
-impl Form {
+impl GainForm {
     /// Whether the gains are in shares of full power: those of a firmware.
     pub(super) fn is_of_firmware(self) -> bool {
         matches!(self, Self::Klipper | Self::Marlin | Self::Reprap | Self::Esphome)

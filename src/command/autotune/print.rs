@@ -4,19 +4,19 @@ use std::io::Write;
 
 use serde_json::{Value, json};
 
-use super::form::Form;
+use super::form::GainForm;
 use super::{Autotuned, CommandError};
 use crate::numeric::{Uncertain, significant};
 use crate::report::{Document, ProcessPage};
 
 impl Autotuned {
     /// The gains to type in a form; `None` without gains.
-    fn lines(&self, form: Form) -> Option<Result<String, &'static str>> {
+    fn lines(&self, form: GainForm) -> Option<Result<String, &'static str>> {
         self.proved.as_ref().map(|proved| form.lines(&proved.gains, self.sign(), self.full_power, self.interval_s))
     }
 
     /// The page of `--report`.
-    pub(super) fn page(&self, name: &str, form: Form) -> Document {
+    pub(super) fn page(&self, name: &str, form: GainForm) -> Document {
         let reasons: Vec<String> = self.reasons().into_iter().map(|(_, text)| text).collect();
         let lines = self.lines(form).and_then(Result::ok);
         let page = ProcessPage {
@@ -32,7 +32,7 @@ impl Autotuned {
         page.document()
     }
 
-    pub(super) fn json(&self, name: &str, form: Form) -> Value {
+    pub(super) fn json(&self, name: &str, form: GainForm) -> Value {
         let sign = self.sign();
         let estimate = |one: &crate::autotune::Ranged| json!(one);
         let models: Vec<Value> = self
@@ -105,7 +105,7 @@ impl Autotuned {
         })
     }
 
-    pub(super) fn print(&self, form: Form, output: &mut impl Write) -> Result<(), CommandError> {
+    pub(super) fn print(&self, form: GainForm, output: &mut impl Write) -> Result<(), CommandError> {
         match self.lines(form) {
             Some(Ok(lines)) => writeln!(output, "{lines}")?,
             Some(Err(reason)) => return Err(CommandError::Usage { reason: format!("--form: {reason}") }),

@@ -46,10 +46,11 @@ impl Tuned {
     /// Where some axis of the intervals is not stabilised, with the nearest bandwidth at which all are.
     pub(super) fn new(model: &Model, wanted: &Arguments) -> Result<Self, ControlError> {
         let (axis, limit) = (model.values().design_axis()?, wanted.limit_of_all());
-        let families = model.slopes_at_rest().map(|slope| Family { model, wanted, axis, slope });
+        let families = model.slopes_at_rest().map(|slope| PlacedGains { model, wanted, axis, slope });
         let asked_rad_s = wanted.bandwidth.unwrap_or(f64::NAN);
-        let designed =
-            |family: &Family| family.design(limit.map_or(Ok(asked_rad_s), |limit| family.largest_bandwidth(limit))?);
+        let designed = |family: &PlacedGains| {
+            family.design(limit.map_or(Ok(asked_rad_s), |limit| family.largest_bandwidth(limit))?)
+        };
         let [at_rest, least] = &families;
         let first = designed(at_rest);
         let enough = match &first {
@@ -96,14 +97,14 @@ impl Tuned {
 }
 
 /// Gains of one structure, placed for one slope of the drag, over bandwidths.
-struct Family<'a> {
+struct PlacedGains<'a> {
     model: &'a Model,
     wanted: &'a Arguments,
     axis: DragAxis<f64>,
     slope: f64,
 }
 
-impl Family<'_> {
+impl PlacedGains<'_> {
     fn tuning(&self, bandwidth_rad_s: f64) -> Result<Tuning<f64>, ControlError> {
         Tuning::for_slope(&self.axis, self.slope, self.wanted.structure, bandwidth_rad_s)
     }
@@ -230,8 +231,8 @@ fn grid([least, most]: [f64; 2]) -> Vec<f64> {
 
 /// The bandwidth nearest to the one asked for, to two digits, at which every axis of the intervals is proved to be stable. Those with a
 /// usual sensitivity come first, then that of the least.
-fn stabilised(families: &[Family; 2], asked_rad_s: f64) -> Option<f64> {
-    let mut candidates: Vec<(f64, &Family, f64)> = Vec::new();
+fn stabilised(families: &[PlacedGains; 2], asked_rad_s: f64) -> Option<f64> {
+    let mut candidates: Vec<(f64, &PlacedGains, f64)> = Vec::new();
     for family in families {
         let Ok(range) = family.range() else { continue };
         candidates.extend(grid(range).into_iter().filter_map(|bandwidth| {
@@ -242,7 +243,7 @@ fn stabilised(families: &[Family; 2], asked_rad_s: f64) -> Option<f64> {
     }
     let far = |bandwidth: f64| libm::log(bandwidth / asked_rad_s).abs();
     candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(far(a.2).total_cmp(&far(b.2))));
-    let proved = |family: &Family, bandwidth: f64| {
+    let proved = |family: &PlacedGains, bandwidth: f64| {
         let stable = family.loops(bandwidth).is_ok_and(|(gains, processes)| processes.all_stable(&gains));
         stable && family.design(bandwidth).is_ok()
     };

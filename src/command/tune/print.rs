@@ -82,8 +82,8 @@ impl Tuned {
             writeln!(output, "{name:34}{nominal:>14}{all}")
         };
         line("\nmargins", "at rest", worst.map(|_| "at least for all".to_owned()))?;
-        type Part = fn(&WorstMargin) -> Option<f64>;
-        let parts: [(&str, Part, f64); 4] = [
+        type MarginOf = fn(&WorstMargin) -> Option<f64>;
+        let parts: [(&str, MarginOf, f64); 4] = [
             ("gain, may grow by a factor", |margin| margin.gain, 1.0),
             ("gain, may be divided by", |margin| margin.gain_reduction, 1.0),
             ("phase / deg", |margin| Some(margin.phase_rad.to_degrees()), 0.0),

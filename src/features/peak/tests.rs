@@ -18,9 +18,9 @@ fn the_largest_sample_stays_the_largest() {
 }
 
 /// Nine samples, times first: the height of the parabola through them.
-struct Vertex;
+struct ParabolaVertex;
 
-impl Formula<18, 1> for Vertex {
+impl Formula<18, 1> for ParabolaVertex {
     fn of<T: Scalar>(inputs: [T; 18]) -> [T; 1] {
         let samples: [(T, T); 9] = core::array::from_fn(|k| (inputs[k], inputs[9 + k]));
         [vertex(&samples, samples[4].1).unwrap_or(T::zero())]
@@ -66,5 +66,5 @@ fn rounding_of_a_turning_point() {
             (value - 1.0 / 256.0, value + 1.0 / 256.0)
         }
     });
-    hold::<18, 1, Vertex>(domain, [1; 18], [[1.8e-14], [9.5e-6]]);
+    hold::<18, 1, ParabolaVertex>(domain, [1; 18], [[1.8e-14], [9.5e-6]]);
 }

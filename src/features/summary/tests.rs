@@ -8,7 +8,7 @@ struct Step;
 
 impl Formula<4, 2> for Step {
     fn of<T: Scalar>([mean, squares, value, count]: [T; 4]) -> [T; 2] {
-        let mut moments = Moments { mean, squares };
+        let mut moments = WelfordMoments { mean, squares };
         moments.push(value, count);
         [moments.mean, moments.squares]
     }

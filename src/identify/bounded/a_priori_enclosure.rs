@@ -4,7 +4,7 @@
 //! *Applied Mathematics and Computation* 105, 1999). Here each component is bounded by a scalar differential inequality, which is
 //! sharper: beyond an end of its start a component moves no faster than between the two.
 
-use super::vector_field::{FORCE, FieldTerm, POSITION, State, VELOCITY, VectorField};
+use super::vector_field::{FORCE, FieldTerm, POSITION, StateBox, VELOCITY, VectorField};
 use crate::numeric::{Interval, Real};
 
 /// Attempts before the step is called too long.
@@ -13,9 +13,9 @@ const ATTEMPTS: usize = 6;
 const INFLATION: [f64; 3] = [0.4, 0.15, 0.05];
 
 /// States that contain every solution for `h`, given the rate of each component.
-pub(super) fn enclose(start: &State, h: Interval, rate: impl Fn(usize, &State) -> Interval) -> Option<State> {
+pub(super) fn enclose(start: &StateBox, h: Interval, rate: impl Fn(usize, &StateBox) -> Interval) -> Option<StateBox> {
     let h = Interval::point(h.upper());
-    let picard = |guess: &State| -> Option<State> {
+    let picard = |guess: &StateBox| -> Option<StateBox> {
         let mut next = *guess;
         for component in [FORCE, VELOCITY, POSITION] {
             let (own, side) = (start[component], guess[component]);
@@ -51,14 +51,14 @@ pub(super) fn enclose(start: &State, h: Interval, rate: impl Fn(usize, &State) -
 
 impl VectorField {
     /// States that contain every motion for `h`.
-    pub(super) fn passed(&self, start: &State, u: Interval, h: Interval) -> Option<State> {
+    pub(super) fn passed(&self, start: &StateBox, u: Interval, h: Interval) -> Option<StateBox> {
         let damped = self.passed_damped(start, u, h);
         damped.or_else(|| enclose(start, h, |component, state| self.rate_of(component, state, u)))
     }
 
     /// The same without iteration where the rate of the velocity depends on the velocity alone and falls with it: beyond an end of its
     /// start the velocity moves no faster than at that end.
-    pub(super) fn passed_damped(&self, start: &State, u: Interval, h: Interval) -> Option<State> {
+    pub(super) fn passed_damped(&self, start: &StateBox, u: Interval, h: Interval) -> Option<StateBox> {
         if self.has(FieldTerm::Stiffness) || self.has(FieldTerm::LagRate) {
             return None;
         }

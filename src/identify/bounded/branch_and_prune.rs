@@ -32,7 +32,7 @@ impl Kept {
 }
 
 /// An open box.
-struct Open {
+struct OpenBox {
     at: Vec<Interval>,
     /// Whether it is contracted by modulating functions: not where the motion was followed over the box that it is a part of.
     modulating: bool,
@@ -42,29 +42,29 @@ struct Open {
 #[derive(Default)]
 struct Queue {
     /// By width and number; nonnegative floats have the order of their bits.
-    open: BTreeMap<(u64, usize), Open>,
+    open: BTreeMap<(u64, usize), OpenBox>,
     pushed: usize,
 }
 
 impl Queue {
-    fn push(&mut self, width: f64, open: Open) {
+    fn push(&mut self, width: f64, open: OpenBox) {
         self.open.insert((width.to_bits(), self.pushed), open);
         self.pushed += 1;
     }
 
-    fn pop(&mut self) -> Option<Open> {
+    fn pop(&mut self) -> Option<OpenBox> {
         self.open.pop_last().map(|(_, open)| open)
     }
 }
 
 /// An end of the range of an unknown.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct End {
+pub(super) struct RangeEnd {
     pub(super) unknown: usize,
     pub(super) upper: bool,
 }
 
-impl End {
+impl RangeEnd {
     pub(super) fn sign(self) -> f64 {
         if self.upper { 1.0 } else { -1.0 }
     }
@@ -77,7 +77,7 @@ impl End {
 
 impl Kept {
     /// Keeps the part beyond a value, towards the end; the second part, if there is any.
-    fn cut(&mut self, end: End, value: f64) -> Option<Self> {
+    fn cut(&mut self, end: RangeEnd, value: f64) -> Option<Self> {
         let side = self.at[end.unknown];
         let value = if end.upper { value } else { -value };
         let [low, high] = halves(side, value)?;
@@ -119,7 +119,7 @@ impl Division {
     }
 
     /// The box that extends furthest to an end, and its end.
-    fn furthest(&self, end: End) -> Option<(usize, f64)> {
+    fn furthest(&self, end: RangeEnd) -> Option<(usize, f64)> {
         let ends = self.kept.iter().enumerate().map(|(index, kept)| (index, end.of(&kept.at)));
         ends.max_by(|a, b| a.1.total_cmp(&b.1))
     }
@@ -154,17 +154,17 @@ impl Contractor {
     /// Boxes contracted and divided until the motion is followed over each remaining box, or the budget is spent.
     pub(super) fn prune(&mut self, boxes: Vec<Vec<Interval>>, budget: usize) -> Division {
         let mut division = Division::new();
-        let open = boxes.into_iter().map(|at| Open { at, modulating: true }).collect();
+        let open = boxes.into_iter().map(|at| OpenBox { at, modulating: true }).collect();
         self.prune_into(&mut division, open, budget);
         division
     }
 
-    fn prune_into(&mut self, division: &mut Division, boxes: Vec<Open>, budget: usize) {
+    fn prune_into(&mut self, division: &mut Division, boxes: Vec<OpenBox>, budget: usize) {
         let mut queue = Queue::default();
         for open in boxes {
             queue.push(self.widest(&open.at).0, open);
         }
-        while let Some(Open { mut at, modulating }) = queue.pop() {
+        while let Some(OpenBox { mut at, modulating }) = queue.pop() {
             if self.passes() >= budget {
                 division.complete = false;
                 division.kept.push(Kept { at, contracted: Contracted::Wide(0) });
@@ -191,7 +191,7 @@ impl Contractor {
                 continue;
             };
             for at in parts {
-                queue.push(self.widest(&at).0, Open { at, modulating });
+                queue.push(self.widest(&at).0, OpenBox { at, modulating });
             }
         }
     }
@@ -222,7 +222,7 @@ impl Contractor {
     pub(super) fn shave(
         &mut self,
         division: &mut Division,
-        end: End,
+        end: RangeEnd,
         value: f64,
         fine: f64,
         budget: usize,

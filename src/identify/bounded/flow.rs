@@ -3,7 +3,7 @@
 use super::record::Command;
 use super::sensitivities::{Block, Variable};
 use super::taylor_step::{Arrival, FlowStep, MOST_LENGTH, TooLong};
-use super::vector_field::{FORCE, FieldTerm, Fields, State, StatePair, VELOCITY, VectorField, changes_sign};
+use super::vector_field::{FORCE, FieldTerm, Fields, StateBox, StatePair, VELOCITY, VectorField, changes_sign};
 use super::work::Work;
 use crate::numeric::{Balls, Interval};
 
@@ -18,20 +18,20 @@ const MOST_SHORTENED: usize = 40;
 
 /// The enclosure at a sample.
 #[derive(Clone, Debug)]
-pub(super) struct Node {
+pub(super) struct SampleEnclosure {
     /// Over the box.
-    pub(super) over: State,
+    pub(super) over: StateBox,
     /// Of the point.
-    pub(super) at: State,
+    pub(super) at: StateBox,
     /// By each variable: the state over the box is that of the point plus these times the deviations of the variables.
-    pub(super) sensitivities: Vec<State>,
+    pub(super) sensitivities: Vec<StateBox>,
     /// Largest speed, and acceleration, since the sample before.
     pub(super) fastest: [f64; 2],
 }
 
 /// The equation with its command and delay, over a box and at a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Input<'a> {
+pub(super) struct DelayedCommand<'a> {
     pub(super) fields: Fields,
     pub(super) command: &'a Command,
     pub(super) delay_s: Interval,
@@ -45,21 +45,21 @@ pub(super) struct Input<'a> {
 }
 
 /// A switching at an uncertain instant, which may have happened.
-struct Uncertain {
+struct UncertainSwitching {
     edge: usize,
     /// The states to which a unit impulse at the switching may have brought the motion by now.
-    impulse: State,
+    impulse: StateBox,
 }
 
 /// The state and its columns on the way.
-struct Flow<'a> {
-    input: &'a Input<'a>,
+struct FlowEnclosure<'a> {
+    input: &'a DelayedCommand<'a>,
     blocks: &'a [Block],
     state: StatePair,
     columns: Vec<[Balls; 3]>,
-    uncertain: Vec<Uncertain>,
+    uncertain: Vec<UncertainSwitching>,
     fastest: [f64; 2],
-    nodes: Vec<Node>,
+    nodes: Vec<SampleEnclosure>,
 }
 
 fn shorten(part: &mut Interval, length: f64) {
@@ -79,7 +79,7 @@ fn stride(
 ) -> Option<Option<Box<FlowStep>>> {
     let field = &fields.over;
     // The point need not be in the box.
-    let both: State = core::array::from_fn(|k| state.over[k].hull(state.at[k]));
+    let both: StateBox = core::array::from_fn(|k| state.over[k].hull(state.at[k]));
     let v = both[VELOCITY];
     shorten(part, SAFETY * MOST_LENGTH / field.fastest_rate(v));
     let [_, rate, _] = field.rate(&both, u);
@@ -114,7 +114,7 @@ fn stride(
 
 /// An estimate of the time for which the velocity keeps its sign, and `false`; or, where that is nearly over, of the time after which
 /// it has changed it, and `true`.
-fn to_rest(field: &VectorField, state: &State, u: Interval, left: f64) -> (f64, bool) {
+fn to_rest(field: &VectorField, state: &StateBox, u: Interval, left: f64) -> (f64, bool) {
     let [x, v, f] = *state;
     let rate = |v: Interval| field.rate(&[x, v, f], u)[VELOCITY];
     let now = rate(v);
@@ -141,7 +141,7 @@ fn to_rest(field: &VectorField, state: &State, u: Interval, left: f64) -> (f64, 
 }
 
 /// The motion of a point alone: its end, and the states that it passes.
-fn advance_point(field: &VectorField, start: State, u: Interval, h: Interval) -> Option<[State; 2]> {
+fn advance_point(field: &VectorField, start: StateBox, u: Interval, h: Interval) -> Option<[StateBox; 2]> {
     let (mut state, mut passed, mut left) = (start, start, h);
     let fields = Fields { over: *field, at: *field };
     for _ in 0..MOST_STEPS {
@@ -176,7 +176,7 @@ fn halved<T>(part: &mut Interval, step: impl Fn(Interval) -> Option<T>) -> Optio
     None
 }
 
-impl Flow<'_> {
+impl FlowEnclosure<'_> {
     fn lagged(&self) -> bool {
         self.input.fields.over.has(FieldTerm::LagRate)
     }
@@ -186,7 +186,7 @@ impl Flow<'_> {
     }
 
     /// Columns with uncertain switchings, and the state over the box: the intersection of its enclosure with the mean value form.
-    fn mean_value(&self, mut over: State, at: &State, columns: &[[Balls; 3]]) -> (State, Vec<[Balls; 3]>) {
+    fn mean_value(&self, mut over: StateBox, at: &StateBox, columns: &[[Balls; 3]]) -> (StateBox, Vec<[Balls; 3]>) {
         let blocks = self.blocks.iter().zip(columns);
         let columns: Vec<[Balls; 3]> = blocks.map(|(block, columns)| self.with_uncertain(block, *columns)).collect();
         for k in 0..if self.lagged() { 3 } else { 2 } {
@@ -199,9 +199,9 @@ impl Flow<'_> {
     }
 
     /// Notes a sample.
-    fn note(&mut self, over: State, at: State, columns: &[[Balls; 3]]) -> Option<()> {
+    fn note(&mut self, over: StateBox, at: StateBox, columns: &[[Balls; 3]]) -> Option<()> {
         let (over, columns) = self.mean_value(over, &at, columns);
-        let sensitivities: Vec<State> = (self.blocks.iter().zip(&columns))
+        let sensitivities: Vec<StateBox> = (self.blocks.iter().zip(&columns))
             .flat_map(|(block, columns)| {
                 let components = columns.map(Balls::intervals);
                 (0..block.count()).map(move |lane| components.map(|values| values[lane]))
@@ -210,7 +210,7 @@ impl Flow<'_> {
         if !over.iter().chain(sensitivities.iter().flatten()).all(|value| value.is_bounded()) {
             return None;
         }
-        self.nodes.push(Node { over, at, sensitivities, fastest: self.fastest });
+        self.nodes.push(SampleEnclosure { over, at, sensitivities, fastest: self.fastest });
         Some(())
     }
 
@@ -275,7 +275,7 @@ impl Flow<'_> {
             self.columns = self.carried(&end);
             self.state.at = end.at.or(point.map(|[at, _]| at))?;
             let fresh = self.unit_impulse();
-            for Uncertain { impulse, .. } in &mut self.uncertain {
+            for UncertainSwitching { impulse, .. } in &mut self.uncertain {
                 // The switching may also be at this very end.
                 let carried = end.carry(&impulse.map(Balls::splat));
                 *impulse = core::array::from_fn(|k| carried[k].interval_at(0).hull(fresh[k]));
@@ -290,7 +290,12 @@ impl Flow<'_> {
     }
 
     /// A step by rates, the end of the point's motion, and the states that it passes.
-    fn by_rates(&self, u: Interval, u_at: Interval, part: &mut Interval) -> Option<(Box<FlowStep>, State, State)> {
+    fn by_rates(
+        &self,
+        u: Interval,
+        u_at: Interval,
+        part: &mut Interval,
+    ) -> Option<(Box<FlowStep>, StateBox, StateBox)> {
         let fields = &self.input.fields;
         shorten(part, BY_RATES / fields.over.fastest_rate(self.state.over[VELOCITY]));
         halved(part, |part| {
@@ -324,17 +329,24 @@ impl Passed {
 /// The motion at those of the `times` that are used, the first among them, where it starts; with sensitivities by
 /// variables, and their deviations from the point. `None` where it cannot be enclosed.
 pub(super) fn follow(
-    input: &Input<'_>,
+    input: &DelayedCommand<'_>,
     start: StatePair,
     times: &[(f64, bool)],
     variables: &[Variable],
     deviations: &[Interval],
-) -> Option<Vec<Node>> {
+) -> Option<Vec<SampleEnclosure>> {
     let blocks = Block::of(variables, deviations);
     let columns: Vec<_> = blocks.iter().map(|block| block.initial).collect();
     let fastest = [start.over[VELOCITY].magnitude(), 0.0];
-    let mut flow =
-        Flow { input, blocks: &blocks, state: start, columns, uncertain: Vec::new(), fastest, nodes: Vec::new() };
+    let mut flow = FlowEnclosure {
+        input,
+        blocks: &blocks,
+        state: start,
+        columns,
+        uncertain: Vec::new(),
+        fastest,
+        nodes: Vec::new(),
+    };
     let (begin, end) = (times.first()?.0, times.last()?.0);
     let command = input.command;
     // The point's own switchings, of which rounding alone is uncertain, are inside those over the box.
@@ -348,7 +360,7 @@ pub(super) fn follow(
     let fresh = flow.unit_impulse();
     for edge in over.done..over.begun {
         // A switching before the beginning is in the initial state.
-        flow.uncertain.push(Uncertain { edge, impulse: fresh.map(|value| value.hull(Interval::ZERO)) });
+        flow.uncertain.push(UncertainSwitching { edge, impulse: fresh.map(|value| value.hull(Interval::ZERO)) });
     }
     let first = flow.columns.clone();
     flow.note(start.over, start.at, &first)?;
@@ -368,7 +380,7 @@ pub(super) fn follow(
             now = until;
         }
         if over.next_begin() <= now {
-            flow.uncertain.push(Uncertain { edge: over.begun, impulse: fresh });
+            flow.uncertain.push(UncertainSwitching { edge: over.begun, impulse: fresh });
             over.begun += 1;
         } else if at.next_begin() <= now {
             at.begun += 1;
@@ -387,10 +399,10 @@ pub(super) fn follow(
 
 // Moving a switching later by z subtracts its jump during z: an impulse at the switching of the size `gain (u_before - u_after) z`, which
 // the motion carries on. While the instant is uncertain the impulse may have happened at any time since the earliest instant.
-impl Flow<'_> {
+impl FlowEnclosure<'_> {
     /// Columns with the contributions that uncertain switchings may have made.
     fn with_uncertain(&self, block: &Block, mut columns: [Balls; 3]) -> [Balls; 3] {
-        for Uncertain { edge, impulse } in &self.uncertain {
+        for UncertainSwitching { edge, impulse } in &self.uncertain {
             if let Some(shifts) = block.shifts(*edge) {
                 for (values, impulse) in columns.iter_mut().zip(impulse) {
                     *values = *values + shifts * Balls::splat(self.scaled(*edge, *impulse).hull(Interval::ZERO));
@@ -408,7 +420,7 @@ impl Flow<'_> {
     }
 
     /// A unit impulse at this instant.
-    fn unit_impulse(&self) -> State {
+    fn unit_impulse(&self) -> StateBox {
         let mut impulse = [Interval::ZERO; 3];
         impulse[if self.lagged() { FORCE } else { VELOCITY }] = Interval::ONE;
         impulse
@@ -417,7 +429,7 @@ impl Flow<'_> {
     /// At the latest instant of a switching its contribution is certain.
     fn settle(&mut self, edge: usize) {
         let Some(place) = self.uncertain.iter().position(|own| own.edge == edge) else { return };
-        let Uncertain { impulse, .. } = self.uncertain.swap_remove(place);
+        let UncertainSwitching { impulse, .. } = self.uncertain.swap_remove(place);
         let added = impulse.map(|impulse| Balls::splat(self.scaled(edge, impulse)));
         for (block, columns) in self.blocks.iter().zip(&mut self.columns) {
             if let Some(shifts) = block.shifts(edge) {

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use super::flow::{Input, Node, follow};
+use super::flow::{DelayedCommand, SampleEnclosure, follow};
 use super::linear_program::{Inequalities, Multipliers, Outcome, Programme};
 use super::problem::Problem;
 use super::record::Readings;
@@ -110,7 +110,7 @@ impl Problem {
     }
 
     /// The motion over a span at its samples over a box, with sensitivities about `centre`. `None` where it cannot be enclosed.
-    pub(super) fn motion(&self, span: Span, at: &[Interval], centre: &[f64]) -> Option<Vec<Node>> {
+    pub(super) fn motion(&self, span: Span, at: &[Interval], centre: &[f64]) -> Option<Vec<SampleEnclosure>> {
         self.follow(span, at, centre, true, &self.times(span))
     }
 
@@ -157,7 +157,7 @@ impl Problem {
         centre: &[f64],
         with_sensitivities: bool,
         times: &[(f64, bool)],
-    ) -> Option<Vec<Node>> {
+    ) -> Option<Vec<SampleEnclosure>> {
         let (record, unknowns) = (self.unknowns.shooting[span.from].record, &self.unknowns);
         let (readings, point) = (&self.records[record], points(centre));
         let instants = unknowns.instants(record);
@@ -166,7 +166,7 @@ impl Problem {
             (instants > 0).then(|| readings.command.with_spans(spans))
         };
         let (over, middle) = (command(at), command(&point));
-        let input = Input {
+        let input = DelayedCommand {
             fields: Fields {
                 over: unknowns.field(record, at, self.middle_speed),
                 at: unknowns.field(record, &point, self.middle_speed),
@@ -188,7 +188,7 @@ impl Problem {
 
     /// The largest distance of the output at a sample from its reading: `E + J min(V, |v| + A J)` for a stamp that is off by at most J, with
     /// V and A the largest speed and acceleration near the stamp; beyond the ends of the motion `E + J` times the largest speed searched.
-    fn allowed(&self, record: usize, motion: &[Node], samples: &[usize], offset: usize) -> Interval {
+    fn allowed(&self, record: usize, motion: &[SampleEnclosure], samples: &[usize], offset: usize) -> Interval {
         let Readings { time_s, error, jitter_s, .. } = &self.records[record];
         let (error, jitter) = (Interval::point(*error), Interval::point(*jitter_s));
         if *jitter_s <= 0.0 {
@@ -233,11 +233,11 @@ impl Problem {
     }
 
     /// Adds the inequalities of the readings of a span, whose motion is enclosed about the same centre; with `linked` those of its end.
-    pub(super) fn add_motion(&self, span: Span, motion: &[Node], linked: bool, relaxation: &mut Relaxation) {
+    pub(super) fn add_motion(&self, span: Span, motion: &[SampleEnclosure], linked: bool, relaxation: &mut Relaxation) {
         let (_, places) = self.unknowns.variables(span.from);
         let record = self.unknowns.shooting[span.from].record;
         let (readings, samples) = (&self.records[record], self.samples(span));
-        let by = |node: &Node, component: usize| {
+        let by = |node: &SampleEnclosure, component: usize| {
             let own = node.sensitivities.iter().map(move |own| own[component]);
             places.iter().copied().zip(own.collect::<Vec<_>>())
         };

@@ -1,7 +1,7 @@
 //! Refinement of the bounds once a feasible point is found: boxes of low uncertainty, and ends that move in to feasible points.
 
 use super::answer::Quantity;
-use super::branch_and_prune::{Division, End, FINEST, hull};
+use super::branch_and_prune::{Division, FINEST, RangeEnd, hull};
 use super::contraction::{Contractor, Empty};
 use super::feasible_point::ParameterPoint;
 use super::linear_relaxation::points;
@@ -74,8 +74,8 @@ impl Points {
         while contractor.passes() < budget.min(begun + MOST_PASSES / 2) && contractor.bisect_coarsest(division, FINE) {}
         let Some(hull) = division.hull() else { return };
         contractor.nearest(&hull, &hull).into_iter().for_each(|point| self.note(point));
-        let ends: Vec<End> = (0..contractor.problem.unknowns.common())
-            .flat_map(|unknown| [true, false].map(|upper| End { unknown, upper }))
+        let ends: Vec<RangeEnd> = (0..contractor.problem.unknowns.common())
+            .flat_map(|unknown| [true, false].map(|upper| RangeEnd { unknown, upper }))
             .collect();
         for end in &ends {
             let from = self.feasible().cloned();
@@ -99,18 +99,18 @@ impl Points {
     }
 
     /// Where an end should be: beyond the feasible points by a share of the width.
-    fn goal(&self, division: &Division, end: End, share: f64) -> Option<f64> {
+    fn goal(&self, division: &Division, end: RangeEnd, share: f64) -> Option<f64> {
         let (hull, inner) = (division.hull()?, self.inner.as_ref()?);
         Some(end.of(inner) + share * hull[end.unknown].width())
     }
 
-    fn is_good(&self, division: &Division, end: End) -> bool {
+    fn is_good(&self, division: &Division, end: RangeEnd) -> bool {
         let reached = division.hull().map(|hull| end.of(&hull));
         reached.zip(self.goal(division, end, 0.5 * (1.0 - GOOD))).is_none_or(|(reached, goal)| reached <= goal)
     }
 
     /// One end: slices beyond the goal are proved empty; where a box stays, a feasible point is sought in it.
-    fn move_in(&mut self, contractor: &mut Contractor, division: &mut Division, end: End, budget: usize) {
+    fn move_in(&mut self, contractor: &mut Contractor, division: &mut Division, end: RangeEnd, budget: usize) {
         while contractor.passes() < budget && !self.is_good(division, end) {
             let Some(goal) = self.goal(division, end, 0.25 * (1.0 - GOOD)) else { return };
             let slack = self.nearest.as_ref().map_or(0.0, |nearest| 1.0 - nearest.misfit);

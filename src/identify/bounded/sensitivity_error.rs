@@ -5,7 +5,7 @@
 //! distance of the two velocities.
 
 use super::sensitivities::{Block, Equation, units};
-use super::vector_field::{FieldTerm, Fields, State, VELOCITY};
+use super::vector_field::{FieldTerm, Fields, StateBox, VELOCITY};
 use crate::numeric::{Balls, Interval, Real, Sizes};
 
 /// Bounds of d at the end of a step of the length `h`, of velocity and force.
@@ -39,8 +39,8 @@ impl SensitivityError {
     /// Gronwall's inequality gives no bound.
     pub(super) fn of(
         fields: &Fields,
-        start: [&State; 2],
-        within: [&State; 2],
+        start: [&StateBox; 2],
+        within: [&StateBox; 2],
         u: Interval,
         h: Interval,
         blocks: &[Block],
@@ -52,7 +52,7 @@ impl SensitivityError {
         let (equation, own) = (Equation::of(over), Equation::of(at));
         let by_term = |term: FieldTerm| Balls::splat(at.by_term(term, within[1], u));
         // |y(theta) - y(c)| from the distance of the starts and of the forces on them.
-        let first: State = core::array::from_fn(|k| start[0][k] - start[1][k]);
+        let first: StateBox = core::array::from_fn(|k| start[0][k] - start[1][k]);
         let forces = fields.forces_apart(|term| by_term(term).sizes());
         let [_, distance, _] = equation.gronwall(slope, forces, &first.map(Balls::splat), h)?.map(Sizes::interval);
         let apart = fields.apart(within[1][VELOCITY], distance);

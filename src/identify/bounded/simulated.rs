@@ -16,7 +16,7 @@ pub(super) type Sample = ([f64; 3], f64);
 
 /// Terms over inertia, and the constants.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Vehicle {
+pub(super) struct VehicleTerms {
     pub(super) gain: f64,
     pub(super) linear: f64,
     pub(super) quadratic: f64,
@@ -28,7 +28,7 @@ pub(super) struct Vehicle {
     pub(super) delayed: usize,
 }
 
-impl Vehicle {
+impl VehicleTerms {
     /// Position, velocity and force at every sample under a square wave; and the command.
     pub(super) fn motion(&self, samples: usize) -> Vec<Sample> {
         let command = |sample: usize| if (sample / 16).is_multiple_of(2) { 1.0 } else { -1.0 };

@@ -2,19 +2,19 @@
 //! Makino, *Reliable Computing* 4, 1998). The coefficient of the highest degree is an enclosure over the whole step: Lagrange's remainder.
 
 use super::sensitivities::{Block, Equation};
-use super::vector_field::{FORCE, FieldTerm, POSITION, State, VELOCITY, VectorField};
+use super::vector_field::{FORCE, FieldTerm, POSITION, StateBox, VELOCITY, VectorField};
 use crate::numeric::{Balls, Interval, Sizes};
 
 /// Degree of a step's polynomials, the remainder included: at rates of `h lambda = 0.4` it is `0.4^8/8!`, a unit in the eighth digit.
 pub(super) const DEGREE: usize = 8;
 
-type Coefficients<T> = [T; DEGREE + 1];
-type Series = Coefficients<Balls>;
+type TaylorCoefficients<T> = [T; DEGREE + 1];
+type Series = TaylorCoefficients<Balls>;
 /// Polynomials of position, velocity and force.
-pub(super) type Path = [Series; 3];
+pub(super) type TaylorPath = [Series; 3];
 
 const ZEROS: Series = [Balls::ZERO; DEGREE + 1];
-pub(super) const NO_PATH: Path = [ZEROS; 3];
+pub(super) const NO_PATH: TaylorPath = [ZEROS; 3];
 
 /// Lanes of a point's series: from the middle of its start, from its whole start, and from all states of the step.
 const MIDDLE: usize = 0;
@@ -28,7 +28,7 @@ fn product(a: &Series, b: &Series, k: usize) -> Balls {
 }
 
 /// Values of polynomials of a degree after a time; without a lag the force stays.
-pub(super) fn values(path: &Path, time: Interval, degree: usize, lagged: bool) -> [Balls; 3] {
+pub(super) fn values(path: &TaylorPath, time: Interval, degree: usize, lagged: bool) -> [Balls; 3] {
     let time = Balls::splat(time);
     let mut powers = ZEROS;
     powers[0] = Balls::ONE;
@@ -43,7 +43,7 @@ pub(super) fn values(path: &Path, time: Interval, degree: usize, lagged: bool) -
 pub(super) const LINE: usize = 2;
 
 /// Velocity and force on a straight line, the position on its integral.
-pub(super) fn line(start: &[Balls; 3], rate: &[Balls; 3]) -> Path {
+pub(super) fn line(start: &[Balls; 3], rate: &[Balls; 3]) -> TaylorPath {
     let mut path = NO_PATH;
     for k in [POSITION, VELOCITY, FORCE] {
         (path[k][0], path[k][1]) = (start[k], rate[k]);
@@ -56,14 +56,14 @@ pub(super) fn line(start: &[Balls; 3], rate: &[Balls; 3]) -> Path {
 /// The motion of a point during a step in which its velocity has one sign: its coefficients, and those of the terms' derivatives.
 pub(super) struct PointSeries {
     equation: Equation,
-    state: Path,
+    state: TaylorPath,
     /// `(|v| - 2 m) v`, `v^3` and `u - f`.
     drag: Series,
     cube: Series,
     lag_input: Series,
     /// The drag's slope along the motion: from the start, and its bound from all states.
     damping: Series,
-    damping_bound: Coefficients<Sizes>,
+    damping_bound: TaylorCoefficients<Sizes>,
     /// Over the whole step.
     damping_range: Interval,
     h: Interval,
@@ -73,7 +73,7 @@ impl PointSeries {
     /// From the middle of a start, all of it, and the states `within` a step of the length `h`, all velocities `backwards` or none.
     pub(super) fn of(
         field: &VectorField,
-        [middle, start, within]: [&State; 3],
+        [middle, start, within]: [&StateBox; 3],
         u: Interval,
         backwards: bool,
         h: Interval,
@@ -140,7 +140,7 @@ impl PointSeries {
     }
 
     /// The motion from the middle of the start, with its remainder.
-    pub(super) fn path(&self) -> Path {
+    pub(super) fn path(&self) -> TaylorPath {
         self.state
             .each_ref()
             .map(|own| core::array::from_fn(|k| own[k].spread(if k == DEGREE { WITHIN } else { MIDDLE })))
@@ -163,7 +163,7 @@ impl PointSeries {
     }
 
     /// Columns of sensitivities from their start, forced by the terms of a block. `None` where Gronwall's inequality gives no bound.
-    pub(super) fn columns(&self, block: Option<&Block>, start: &[Balls; 3]) -> Option<Path> {
+    pub(super) fn columns(&self, block: Option<&Block>, start: &[Balls; 3]) -> Option<TaylorPath> {
         let forcing = |k: usize, lane: usize| {
             block.map_or([Balls::ZERO; 2], |block| block.forcing(|term| self.by_term(term, k).spread(lane)))
         };

@@ -5,8 +5,10 @@
 use super::a_priori_enclosure::enclose;
 use super::sensitivities::{Block, Equation, units};
 use super::sensitivity_error::SensitivityError;
-use super::taylor_series::{DEGREE, LINE, NO_PATH, Path, PointSeries, line, values};
-use super::vector_field::{FORCE, FieldTerm, Fields, POSITION, State, StatePair, VELOCITY, VectorField, changes_sign};
+use super::taylor_series::{DEGREE, LINE, NO_PATH, PointSeries, TaylorPath, line, values};
+use super::vector_field::{
+    FORCE, FieldTerm, Fields, POSITION, StateBox, StatePair, VELOCITY, VectorField, changes_sign,
+};
 use crate::numeric::{Balls, Interval};
 
 #[cfg(test)]
@@ -21,16 +23,16 @@ const HALF: TooLong = TooLong::Share(0.5);
 #[derive(Clone, Debug)]
 pub(super) struct FlowStep {
     /// The point's motion from the middle of its start; of a step by rates the motion over the box.
-    state: Path,
+    state: TaylorPath,
     /// Sensitivities by each component of the state at the start.
-    by_start: Path,
+    by_start: TaylorPath,
     /// Sensitivities by the variables of each block, from zero.
-    by_forcing: Vec<Path>,
+    by_forcing: Vec<TaylorPath>,
     degree: usize,
     /// The point's start about its middle; `None` for a step by rates.
-    about_middle: Option<State>,
+    about_middle: Option<StateBox>,
     /// States at every instant of the step.
-    pub(super) within: State,
+    pub(super) within: StateBox,
     error: Option<SensitivityError>,
     /// Position and velocity at the end of a step by rates, by comparison of the slowest and the fastest motion.
     compared: Option<[Interval; 2]>,
@@ -41,8 +43,8 @@ pub(super) struct FlowStep {
 /// A step at one instant.
 #[derive(Clone, Debug)]
 pub(super) struct Arrival {
-    pub(super) over: State,
-    pub(super) at: Option<State>,
+    pub(super) over: StateBox,
+    pub(super) at: Option<StateBox>,
     by_start: [[Balls; 3]; 3],
     by_forcing: Vec<[Balls; 3]>,
     lagged: bool,
@@ -60,7 +62,7 @@ pub(super) enum TooLong {
 
 impl VectorField {
     /// Whether the velocity is negative throughout a step in which it has one sign; without quadratic drag the sign does not matter.
-    fn backwards(&self, within: &State, h: Interval) -> Result<bool, TooLong> {
+    fn backwards(&self, within: &StateBox, h: Interval) -> Result<bool, TooLong> {
         let v = within[VELOCITY];
         if self.has(FieldTerm::Quadratic) && changes_sign(v) {
             return Err(TooLong::Kink);
@@ -73,7 +75,7 @@ impl VectorField {
     }
 
     /// The motion by the range of its rates: its end, and the states that it passes.
-    pub(super) fn by_rates(&self, start: &State, u: Interval, h: Interval) -> Option<[State; 2]> {
+    pub(super) fn by_rates(&self, start: &StateBox, u: Interval, h: Interval) -> Option<[StateBox; 2]> {
         let within = self.passed(start, u, h)?;
         let [from, rate] = [*start, self.rate(&within, u)].map(|state| state.map(Balls::splat));
         Some([values(&line(&from, &rate), h, LINE, true).map(|end| end.interval_at(0)), within])
@@ -101,7 +103,7 @@ impl Fields {
         let forced = |block: &Block| {
             if block.is_forced() { series.columns(Some(block), &[Balls::ZERO; 3]) } else { Some(NO_PATH) }
         };
-        let by_forcing: Option<Vec<Path>> = blocks.iter().map(forced).collect();
+        let by_forcing: Option<Vec<TaylorPath>> = blocks.iter().map(forced).collect();
         let (starts, passed) = ([&start.over, &start.at], [&within, &within_at]);
         Ok(Box::new(FlowStep {
             state: series.path(),
@@ -121,9 +123,9 @@ impl Fields {
     /// `within_at`.
     pub(super) fn by_rates(
         &self,
-        start: &State,
+        start: &StateBox,
         u: Interval,
-        within_at: &State,
+        within_at: &StateBox,
         u_at: Interval,
         h: Interval,
         blocks: &[Block],
@@ -141,7 +143,7 @@ impl Fields {
         let forced = |block: &Block| {
             if block.is_forced() { columns(Some(block), &[Balls::ZERO; 3]) } else { Some(NO_PATH) }
         };
-        let by_forcing: Option<Vec<Path>> = blocks.iter().map(forced).collect();
+        let by_forcing: Option<Vec<TaylorPath>> = blocks.iter().map(forced).collect();
         Some(Box::new(FlowStep {
             state: line(&from, &rate),
             by_start: columns(None, &units())?,
@@ -158,11 +160,11 @@ impl Fields {
 
     /// Position and velocity at the end by comparison: of two motions under the same force the faster stays ahead (Müller 1927), so that
     /// the slowest and the fastest start bound all between them.
-    fn compared(&self, start: &State, within: &State, u: Interval, h: Interval) -> Option<[Interval; 2]> {
+    fn compared(&self, start: &StateBox, within: &StateBox, u: Interval, h: Interval) -> Option<[Interval; 2]> {
         let field = &self.over;
         let rate_from = |end: f64| {
             let start = [within[POSITION], Interval::point(end), within[FORCE]];
-            let rate = |component: usize, state: &State| match component {
+            let rate = |component: usize, state: &StateBox| match component {
                 VELOCITY => field.rate_of(VELOCITY, &[within[POSITION], state[VELOCITY], within[FORCE]], u),
                 _ => Interval::ZERO,
             };
@@ -191,7 +193,7 @@ impl FlowStep {
 
     /// The step after a time.
     pub(super) fn at(&self, time: Interval) -> Arrival {
-        let values = |path: &Path| values(path, time, self.degree, self.lagged);
+        let values = |path: &TaylorPath| values(path, time, self.degree, self.lagged);
         let (state, mut by_start) = (values(&self.state), values(&self.by_start));
         let mut by_forcing: Vec<_> = self.by_forcing.iter().map(values).collect();
         // Mean value form: the end from the middle of the start, and the slope by the start times its radius.

@@ -7,7 +7,7 @@ use super::contraction::Contractor;
 use super::linear_program::Inequalities;
 use super::linear_relaxation::{Disjoint, Origin, Relaxation, Span, midpoints, points};
 use super::problem::Problem;
-use super::simulated::Vehicle;
+use super::simulated::VehicleTerms;
 use super::unknowns::Shooting;
 use super::{BoundedModel, DelayBound};
 use crate::experiment::{Record, Sensor, SimulatedExperiment};
@@ -272,10 +272,10 @@ pub(super) fn off(problem: &Problem, share: f64, width: f64) -> Vec<Interval> {
 
 #[test]
 fn velocities_are_known_from_the_first_shooting_interval_on_and_are_less_than_those_searched() {
-    let vehicle = Vehicle { gain: 1.0, linear: 0.5, delayed: 80, ..Vehicle::default() };
+    let vehicle = VehicleTerms { gain: 1.0, linear: 0.5, delayed: 80, ..VehicleTerms::default() };
     let motion = vehicle.motion(200);
     let model = BoundedModel { either_sign: true, ..vehicle.model(true, STEP) };
-    let problem = Problem::new(&[&Vehicle::record(&motion, STEP)], &model).expect("a problem");
+    let problem = Problem::new(&[&VehicleTerms::record(&motion, STEP)], &model).expect("a problem");
     let mut at = problem.search.clone();
     (at[0], at[1]) = (Interval::point(1.0).inflate(0.1), Interval::point(0.5).inflate(0.1));
     at[2] = Interval::symmetric(0.1);

@@ -3,7 +3,7 @@
 
 use super::record::Readings;
 use super::sensitivities::Variable;
-use super::vector_field::{FieldTerm, State, TERMS, VectorField};
+use super::vector_field::{FieldTerm, StateBox, TERMS, VectorField};
 use crate::numeric::Interval;
 
 /// Samples `first` to `last` of a record, the state unknown at the first. The next shooting interval begins with the last (Bock 1983).
@@ -125,7 +125,7 @@ impl Unknowns {
     }
 
     /// The state at the beginning of a shooting interval over a box.
-    pub(super) fn state(&self, interval: usize, at: &[Interval]) -> State {
+    pub(super) fn state(&self, interval: usize, at: &[Interval]) -> StateBox {
         let component = |k| if k < self.state_size() { at[self.start(interval, k)] } else { Interval::ZERO };
         core::array::from_fn(component)
     }

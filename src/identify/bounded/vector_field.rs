@@ -46,7 +46,7 @@ impl FieldTerm {
 }
 
 /// Position, velocity, and force over its unit gain.
-pub(super) type State = [Interval; 3];
+pub(super) type StateBox = [Interval; 3];
 pub(super) const POSITION: usize = 0;
 pub(super) const VELOCITY: usize = 1;
 pub(super) const FORCE: usize = 2;
@@ -73,8 +73,8 @@ pub(super) struct Fields {
 /// The state over a box, and of the point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StatePair {
-    pub(super) over: State,
-    pub(super) at: State,
+    pub(super) over: StateBox,
+    pub(super) at: StateBox,
 }
 
 /// `v |v|` of every element.
@@ -133,12 +133,12 @@ impl VectorField {
     }
 
     /// Time derivatives of position, velocity and force.
-    pub(super) fn rate(&self, state: &State, u: Interval) -> State {
+    pub(super) fn rate(&self, state: &StateBox, u: Interval) -> StateBox {
         core::array::from_fn(|component| self.rate_of(component, state, u))
     }
 
     /// The time derivative of one component.
-    pub(super) fn rate_of(&self, component: usize, [x, v, f]: &State, u: Interval) -> Interval {
+    pub(super) fn rate_of(&self, component: usize, [x, v, f]: &StateBox, u: Interval) -> Interval {
         match component {
             POSITION => *v,
             VELOCITY => {
@@ -174,7 +174,7 @@ impl VectorField {
     }
 
     /// The derivative of the vector field with respect to a term: of the force's rate for the lag, of the velocity's rate else.
-    pub(super) fn by_term(&self, term: FieldTerm, [x, v, f]: &State, u: Interval) -> Interval {
+    pub(super) fn by_term(&self, term: FieldTerm, [x, v, f]: &StateBox, u: Interval) -> Interval {
         match term {
             FieldTerm::Gain => *f,
             FieldTerm::Disturbance => Interval::ONE,

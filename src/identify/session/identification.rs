@@ -67,9 +67,8 @@ impl Source {
     /// Of a record with the samples of an earlier record.
     pub(super) fn same_as_one_of(&self, earlier: &[Self]) -> Option<Caution> {
         let record = &self.log.record;
-        let same = |other: &&Self| {
-            other.log.record.output() == record.output() && other.log.record.input() == record.input()
-        };
+        let same =
+            |other: &&Self| other.log.record.output() == record.output() && other.log.record.input() == record.input();
         let other = earlier.iter().find(same)?;
         let text = format!(
             "{} has the samples of {}: they count twice, and the statistical intervals are too narrow; give every record once",

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::Path;
 
-use super::identification::{Caution, Identification, Source};
+use super::identification::{Identification, Source};
 use super::methods::Findings;
 use super::refusal::Refusal;
 use super::settings::{Method, Settings, SettingsError};

@@ -7,13 +7,13 @@
 
 /// A rounded result, and whether the exact result may lie above or below it.
 #[derive(Clone, Copy)]
-pub(super) struct Rounded {
+pub(super) struct RoundedResult {
     nearest: f64,
     above: bool,
     below: bool,
 }
 
-impl Rounded {
+impl RoundedResult {
     #[inline]
     fn exact(nearest: f64) -> Self {
         Self { nearest, above: false, below: false }
@@ -56,40 +56,44 @@ impl Rounded {
 }
 
 #[inline]
-pub(super) fn sum(a: f64, b: f64) -> Rounded {
+pub(super) fn sum(a: f64, b: f64) -> RoundedResult {
     let nearest = a + b;
     let b_part = nearest - a;
     // An overflow makes an infinite difference here, hence NaN: the step is taken.
     let error = (a - (nearest - b_part)) + (b - b_part);
-    Rounded { nearest, above: !(error <= 0.0), below: !(error >= 0.0) }
+    RoundedResult { nearest, above: !(error <= 0.0), below: !(error >= 0.0) }
 }
 
 /// With `0 * inf = 0`, as bounds of a set of real numbers need it.
 #[inline]
-pub(super) fn product(a: f64, b: f64) -> Rounded {
+pub(super) fn product(a: f64, b: f64) -> RoundedResult {
     if a == 0.0 || b == 0.0 {
-        return Rounded::exact(0.0);
+        return RoundedResult::exact(0.0);
     }
     let nearest = a * b;
-    if nearest == 0.0 { Rounded::underflow(nearest) } else { Rounded::by_excess(nearest, product_less(a, b, nearest)) }
+    if nearest == 0.0 {
+        RoundedResult::underflow(nearest)
+    } else {
+        RoundedResult::by_excess(nearest, product_less(a, b, nearest))
+    }
 }
 
 #[inline]
-pub(super) fn quotient(a: f64, b: f64) -> Rounded {
+pub(super) fn quotient(a: f64, b: f64) -> RoundedResult {
     let nearest = a / b;
     if nearest == 0.0 {
-        return if a == 0.0 { Rounded::exact(nearest) } else { Rounded::underflow(nearest) };
+        return if a == 0.0 { RoundedResult::exact(nearest) } else { RoundedResult::underflow(nearest) };
     }
-    Rounded::by_excess(nearest, product_less(nearest, b, a).map(i64::wrapping_neg))
+    RoundedResult::by_excess(nearest, product_less(nearest, b, a).map(i64::wrapping_neg))
 }
 
 #[inline]
-pub(super) fn square_root(a: f64) -> Rounded {
+pub(super) fn square_root(a: f64) -> RoundedResult {
     let nearest = libm::sqrt(a);
     if nearest == 0.0 {
-        return Rounded::exact(0.0);
+        return RoundedResult::exact(0.0);
     }
-    Rounded::by_excess(nearest, product_less(nearest, nearest, a).map(i64::wrapping_neg))
+    RoundedResult::by_excess(nearest, product_less(nearest, nearest, a).map(i64::wrapping_neg))
 }
 
 /// `abs(a b) - abs(c)` in units of its own, for a c that is `a b` rounded, or of which `a` is the rounded quotient or root;

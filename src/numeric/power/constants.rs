@@ -1,7 +1,7 @@
 //! The constants of the series by the exponent alone: ratios of gamma functions, enclosed.
 
 use super::series::{Known, STEEP, analytic_step};
-use super::{Pairs, PowerMoments};
+use super::{PowerMoments, SeriesStarts};
 use crate::numeric::{Interval, Real};
 
 /// Argument from which on the remainder of Stirling's series is below rounding.
@@ -28,7 +28,7 @@ fn number(value: f64) -> Interval {
 
 /// The constants of an exponent.
 pub(super) fn of(exponent: f64) -> PowerMoments {
-    let pairs = Pairs { b: Known::NOT, d: Known::NOT, sides: [[Known::NOT; 2]; 2] };
+    let pairs = SeriesStarts { b: Known::NOT, d: Known::NOT, sides: [[Known::NOT; 2]; 2] };
     let unknown = PowerMoments { exponent, slope_at_zero: Known::NOT, at_one: Known::NOT, pairs };
     if exponent.is_nan() {
         return unknown;
@@ -63,7 +63,7 @@ pub(super) fn of(exponent: f64) -> PowerMoments {
     };
     // The continuation through u = 1 and, within the sweep, the part of the input below zero.
     let sides = [[Interval::ONE + parity * sine, parity * rate], [angle.cos(), bend]];
-    let pairs = Pairs { b: b.into(), d: d.into(), sides: sides.map(|side| side.map(Known::from)) };
+    let pairs = SeriesStarts { b: b.into(), d: d.into(), sides: sides.map(|side| side.map(Known::from)) };
     PowerMoments { exponent, slope_at_zero, at_one: at_one.into(), pairs }
 }
 

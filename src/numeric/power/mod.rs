@@ -25,12 +25,12 @@ pub struct PowerMoments {
     /// `m(1)`.
     at_one: Known,
     /// Of the series about 1, where it serves.
-    pairs: Pairs,
+    pairs: SeriesStarts,
 }
 
 /// Where the pairs of the series about 1 start, and the weights of the part that is not analytic there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Pairs {
+struct SeriesStarts {
     b: Known,
     d: Known,
     /// Weight and excess within the sweep, then beyond it.
@@ -65,7 +65,7 @@ impl PowerMoments {
     /// The series that serves, and its sum; `bias >= 0`, neither number wider than rounding, nor their difference of
     /// unknown sign; terms below that share of a sum are omitted, or enclosed.
     #[inline]
-    fn of_sweep<T: Real>(&self, bias: T, amplitude: T, share: f64) -> Found<T> {
+    fn of_sweep<T: Real>(&self, bias: T, amplitude: T, share: f64) -> ScaledMoments<T> {
         let (u, room) = (bias / amplitude, amplitude - bias);
         let at = u.bounds().0;
         let beyond = at > OUTER || (self.exponent >= STEEP && room.bounds().1 < 0.0);
@@ -76,21 +76,21 @@ impl PowerMoments {
         } else {
             self.about_one(u, T::from_f64(0.5) * (room / amplitude), share)
         };
-        Found { beyond, moments }
+        ScaledMoments { beyond, moments }
     }
 
     /// As [`of_sweep`](Self::of_sweep) for intervals of any width and sign.
-    fn of_any(&self, bias: Interval, amplitude: Interval) -> Found<Interval> {
+    fn of_any(&self, bias: Interval, amplitude: Interval) -> ScaledMoments<Interval> {
         /// Relative width of a ratio that is exact but for rounding.
         const THIN: f64 = 1e-14;
         if self.exponent.is_nan() {
             let [m, m_slope, h, h_slope] = [Interval::ENTIRE; 4];
-            return Found { beyond: false, moments: Moments { m, m_slope, h, h_slope } };
+            return ScaledMoments { beyond: false, moments: Moments { m, m_slope, h, h_slope } };
         }
         if bias.is_negative() {
-            let Found { beyond, moments } = self.of_any(-bias, amplitude);
+            let ScaledMoments { beyond, moments } = self.of_any(-bias, amplitude);
             let moments = Moments { m: -moments.m, h_slope: -moments.h_slope, ..moments };
-            return Found { beyond, moments };
+            return ScaledMoments { beyond, moments };
         }
         let (u, room) = (bias / amplitude, amplitude - bias);
         let decided = !room.contains_zero() || room == Interval::ZERO;
@@ -99,7 +99,7 @@ impl PowerMoments {
         }
         let ([m, h], p) = (self.over(u), Interval::point(self.exponent));
         let m_slope = ((Interval::ONE + p) * h - p * u * m) / ((Interval::ONE - u) * (Interval::ONE + u));
-        Found { beyond: false, moments: Moments { m, m_slope, h, h_slope: p * m - u * m_slope } }
+        ScaledMoments { beyond: false, moments: Moments { m, m_slope, h, h_slope: p * m - u * m_slope } }
     }
 
     /// m and h over an interval of any width, in units of the amplitude to the exponent. m grows with u, as f does; h grows with
@@ -109,7 +109,7 @@ impl PowerMoments {
             return [Interval::ENTIRE; 2];
         }
         let at = |u: f64| {
-            let Found { beyond, moments } = self.of_sweep(Interval::point(u.abs()), Interval::ONE, ENCLOSED);
+            let ScaledMoments { beyond, moments } = self.of_sweep(Interval::point(u.abs()), Interval::ONE, ENCLOSED);
             let scale = Interval::point(if beyond { u.abs() } else { 1.0 }).pow(Interval::point(self.exponent));
             [if u < 0.0 { -moments.m } else { moments.m } * scale, moments.h * scale]
         };
@@ -121,7 +121,7 @@ impl PowerMoments {
 
 /// Moments in units of the amplitude to the exponent or, beyond, of the bias to the exponent; their derivatives are by
 /// `bias/amplitude` or `amplitude/bias`.
-struct Found<T> {
+struct ScaledMoments<T> {
     beyond: bool,
     moments: Moments<T>,
 }
@@ -130,7 +130,7 @@ struct Found<T> {
 pub(super) fn of_scalar<T: Scalar>(law: &PowerMoments, bias: T, amplitude: T) -> [T; 2] {
     let negative = bias < T::zero();
     let bias = if negative { -bias } else { bias };
-    let Found { beyond, moments } = law.of_sweep(bias.value(), amplitude.value(), f64::EPSILON);
+    let ScaledMoments { beyond, moments } = law.of_sweep(bias.value(), amplitude.value(), f64::EPSILON);
     let (reference, ratio) = if beyond { (bias, amplitude / bias) } else { (amplitude, bias / amplitude) };
     let scale = reference.pow(T::from_f64(law.exponent));
     let mean = scale * ratio.lift(moments.m, moments.m_slope);
@@ -139,7 +139,7 @@ pub(super) fn of_scalar<T: Scalar>(law: &PowerMoments, bias: T, amplitude: T) ->
 
 /// Intervals.
 pub(super) fn of_interval(law: &PowerMoments, bias: Interval, amplitude: Interval) -> [Interval; 2] {
-    let Found { beyond, moments } = law.of_any(bias, amplitude);
+    let ScaledMoments { beyond, moments } = law.of_any(bias, amplitude);
     let scale = if beyond { bias.abs() } else { amplitude }.pow(Interval::point(law.exponent));
     [scale * moments.m, scale * moments.h]
 }
@@ -148,7 +148,7 @@ pub(super) fn of_interval(law: &PowerMoments, bias: Interval, amplitude: Interva
 pub(super) fn of_jet<const N: usize>(law: &PowerMoments, bias: Jet<N>, amplitude: Jet<N>) -> [Jet<N>; 2] {
     let p = Interval::point(law.exponent);
     let u = bias / amplitude;
-    let Found { beyond, moments: Moments { m, m_slope, h, .. } } = law.of_any(bias.value(), amplitude.value());
+    let ScaledMoments { beyond, moments: Moments { m, m_slope, h, .. } } = law.of_any(bias.value(), amplitude.value());
     let start = if beyond {
         let ratio = u.value();
         let (size, v) = (ratio.abs(), Interval::ONE / ratio);

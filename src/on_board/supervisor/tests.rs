@@ -55,7 +55,7 @@ fn running(largest_excursion: f64, high: bool, switched: bool, started: bool) ->
         phase: Phase::Running,
         relay,
         high,
-        sensor: Sensor { time_s: any, reading: any, position: any, changed_s: any },
+        sensor: SensorState { time_s: any, reading: any, position: any, changed_s: any },
         begun: started,
         started_s: any,
         switched_s: any,

@@ -21,7 +21,7 @@ const NONE: f64 = 1e-9;
 type IntervalMatrix = DMatrix<Interval>;
 
 #[derive(Clone, Copy)]
-enum Event {
+enum LoopEvent {
     Command { slope: Interval },
     Input { jump: Interval },
 }
@@ -74,10 +74,10 @@ impl SwitchedLoop {
         let at = |turns: f64, time: Interval| time - Interval::point(turns) * period;
         // A command comes before an input at the same time.
         let mut events = [
-            (Interval::ZERO, Event::Command { slope: falling }),
-            (high, Event::Command { slope: rising }),
-            (at(first, self.delay), Event::Input { jump }),
-            (at(second, self.delay + high), Event::Input { jump: -jump }),
+            (Interval::ZERO, LoopEvent::Command { slope: falling }),
+            (high, LoopEvent::Command { slope: rising }),
+            (at(first, self.delay), LoopEvent::Input { jump }),
+            (at(second, self.delay + high), LoopEvent::Input { jump: -jump }),
         ];
         events.sort_by(|a, b| a.0.midpoint().total_cmp(&b.0.midpoint()));
         let undelayed = self.delay.upper() == 0.0;
@@ -97,8 +97,8 @@ impl SwitchedLoop {
             }
             now = time;
             match event {
-                Event::Command { slope } => queue.push_back((&output * &state) * (-Interval::ONE / slope)),
-                Event::Input { jump } => {
+                LoopEvent::Command { slope } => queue.push_back((&output * &state) * (-Interval::ONE / slope)),
+                LoopEvent::Input { jump } => {
                     if let Some(late) = queue.pop_front() {
                         // A unit of input raises the first coordinate of every group.
                         let late = late * jump;

@@ -30,7 +30,7 @@ pub(super) struct Moment {
 
 /// A group at a given period.
 #[derive(Debug)]
-enum Form {
+enum GroupForm {
     /// `A^-1`; `(1 - exp(+-A T))^-1`; and the difference between the derivatives by the period and by time.
     Closed { inverse: Element, factor: Element, turned: Element },
     /// `output(A^i) T^(i+1)`, and a bound of the sum of those that are left out.
@@ -42,7 +42,7 @@ enum Form {
 pub(super) struct Periodic<'a> {
     period: Interval,
     modes: &'a [Mode],
-    forms: Vec<Form>,
+    forms: Vec<GroupForm>,
     /// Degree of the highest Bernoulli polynomial that a form has.
     degree: usize,
 }
@@ -51,13 +51,13 @@ impl<'a> Periodic<'a> {
     /// `None` where the period is that of a pole on the imaginary axis.
     pub(super) fn new(modes: &'a [Mode], period: Interval) -> Option<Self> {
         let form = |mode: &Mode| match mode.inverse {
-            Some(inverse) if mode.algebra.size() * period.upper() > 1.0 => Form::closed(mode, inverse, period),
-            _ => Some(Form::series(mode, period)),
+            Some(inverse) if mode.algebra.size() * period.upper() > 1.0 => GroupForm::closed(mode, inverse, period),
+            _ => Some(GroupForm::series(mode, period)),
         };
-        let forms: Vec<Form> = modes.iter().map(form).collect::<Option<_>>()?;
-        let degree = |form: &Form| match form {
-            Form::Closed { .. } => 0,
-            Form::Series { weights, .. } => weights.len() + 1,
+        let forms: Vec<GroupForm> = modes.iter().map(form).collect::<Option<_>>()?;
+        let degree = |form: &GroupForm| match form {
+            GroupForm::Closed { .. } => 0,
+            GroupForm::Series { weights, .. } => weights.len() + 1,
         };
         Some(Self { period, modes, degree: forms.iter().map(degree).max().unwrap_or(0), forms })
     }
@@ -67,8 +67,8 @@ impl<'a> Periodic<'a> {
         let (mut present, mut mean) = (Interval::ZERO, Interval::ZERO);
         for (mode, form) in self.modes.iter().zip(&self.forms) {
             match (mode.static_gain(), form) {
-                (Some(gain), Form::Closed { .. }) => present += gain,
-                (Some(gain), Form::Series { .. }) => mean += gain,
+                (Some(gain), GroupForm::Closed { .. }) => present += gain,
+                (Some(gain), GroupForm::Series { .. }) => mean += gain,
                 (None, _) => {}
             }
         }
@@ -79,14 +79,14 @@ impl<'a> Periodic<'a> {
     pub(super) fn answer(&self, at: &Moment) -> Gradient<2> {
         let polynomials = bernoulli(at.share, self.degree);
         let answers = self.modes.iter().zip(&self.forms).map(|(mode, form)| match form {
-            Form::Closed { inverse, factor, turned } => closed(mode, [inverse, factor, turned], at),
-            Form::Series { weights, rest } => series(weights, *rest, &polynomials, at.share, self.period),
+            GroupForm::Closed { inverse, factor, turned } => closed(mode, [inverse, factor, turned], at),
+            GroupForm::Series { weights, rest } => series(weights, *rest, &polynomials, at.share, self.period),
         });
         answers.fold(Gradient::constant(Interval::ZERO), |sum, answer| sum + answer)
     }
 }
 
-impl Form {
+impl GroupForm {
     fn closed(mode: &Mode, inverse: Element, period: Interval) -> Option<Self> {
         let algebra = &mode.algebra;
         let gone = algebra.exponential(if mode.backwards { -period } else { period });

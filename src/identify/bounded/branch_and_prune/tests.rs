@@ -5,7 +5,7 @@ use crate::identify::DragLaw;
 
 #[test]
 fn the_widest_box_comes_first_and_of_two_as_wide_the_later() {
-    let open = |number: usize| Open { at: vec![Interval::point(number as f64)], modulating: true };
+    let open = |number: usize| OpenBox { at: vec![Interval::point(number as f64)], modulating: true };
     let mut queue = Queue::default();
     for (number, width) in [0.3, f64::INFINITY, 0.0, 2.0, 0.3].into_iter().enumerate() {
         queue.push(width, open(number));

@@ -28,7 +28,7 @@ pub struct Certificate {
     /// How the readings were taken from the logs; null where they are from none.
     pub(super) read_as: Option<ReadAs>,
     /// The rows of the logs.
-    pub(super) records: Vec<Log>,
+    pub(super) records: Vec<LogRows>,
     /// The ranges that follow from these and the model.
     pub(super) searched: Searched,
     /// In order; each begins where its predecessor ended.
@@ -76,7 +76,7 @@ pub(super) struct Witness {
 /// The rows of a log: stamps, readings, and the command that each row has.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Log {
+pub(super) struct LogRows {
     pub(super) time_s: Vec<f64>,
     pub(super) reading: Vec<f64>,
     pub(super) command: Vec<f64>,
@@ -162,7 +162,7 @@ impl Certificate {
         settings: &BoundedModel,
         witness: Option<Witness>,
     ) -> Self {
-        let log = |record: &&Record| Log {
+        let log = |record: &&Record| LogRows {
             time_s: record.time_s().to_vec(),
             reading: record.output().to_vec(),
             command: record.input().to_vec(),

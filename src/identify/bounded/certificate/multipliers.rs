@@ -11,13 +11,13 @@ use crate::numeric::Interval;
 pub(super) const ROOM: f64 = 0.03;
 
 /// The result of a contraction.
-pub(super) enum Found {
+pub(super) enum Contraction {
     /// A contradiction, and its size.
     Contradiction(Combination, f64),
     Cuts(Vec<Cut>),
 }
 
-impl Found {
+impl Contraction {
     /// A contradiction as a cut that empties the range of the first unknown: any objective is bounded by enough of a contradiction.
     pub(super) fn into_cuts(self, at: &[Interval]) -> Vec<Cut> {
         match self {
@@ -49,7 +49,7 @@ pub(super) fn seek(
     unknowns: &[usize],
     target: &[Interval],
     margin: ExclusionMargin,
-) -> Found {
+) -> Contraction {
     let programme = relaxation.programme(&relaxation.places());
     let uncertainty = |multipliers: &Multipliers| -> f64 {
         let of = |(row, y): &(usize, f64)| y * relaxation.uncertainty(*row).map(|(_, part)| part).sum::<f64>();
@@ -71,7 +71,7 @@ pub(super) fn seek(
                     let bound = relaxation.upper_bound(&[], &multipliers);
                     let weighed: f64 = multipliers.iter().map(|(row, y)| y * error(*row)).sum();
                     if bound < -ROOM * margin.slack * weighed - uncertainty(&multipliers) {
-                        return Found::Contradiction(named(&multipliers), -bound);
+                        return Contraction::Contradiction(named(&multipliers), -bound);
                     }
                     continue 'unknowns;
                 }
@@ -107,5 +107,5 @@ pub(super) fn seek(
         }
         cuts.extend(own);
     }
-    Found::Cuts(cuts)
+    Contraction::Cuts(cuts)
 }

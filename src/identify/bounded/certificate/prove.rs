@@ -7,7 +7,7 @@ use super::super::problem::Problem;
 use super::super::settings::BoundedModel;
 use super::super::solve::Solved;
 use super::format::{By, Certificate, Cut, ProofStage, Step, Witness, ends, sides};
-use super::multipliers::{self, ExclusionMargin, Found, seek};
+use super::multipliers::{self, Contraction, ExclusionMargin, seek};
 use super::unproved::Unproved;
 use crate::experiment::Record;
 use crate::identify::IdentifyError;
@@ -38,7 +38,7 @@ impl Certificate {
         let slack = solved.feasible.as_ref().map_or(1.0, |(point, _)| 1.0 - point.misfit);
         let mut setting = problem.clone();
         for hull in &solved.hulls {
-            match Prover::new(&setting, hull.as_deref(), slack).stage() {
+            match CertificateProver::new(&setting, hull.as_deref(), slack).stage() {
                 Ok(stage) => certificate.stages.push(stage),
                 Err(error) => return Ok(Err(error)),
             }
@@ -69,7 +69,7 @@ enum Next {
     Stuck(usize),
 }
 
-struct Prover {
+struct CertificateProver {
     /// By horizon.
     contractors: Vec<Contractor>,
     horizons: Vec<usize>,
@@ -79,7 +79,7 @@ struct Prover {
     steps: Vec<Step>,
 }
 
-impl Prover {
+impl CertificateProver {
     fn new(problem: &Problem, hull: Option<&[Interval]>, slack: f64) -> Self {
         let wider = |(side, from): (&Interval, &Interval)| {
             let room = ROOM * side.width() + f64::EPSILON * side.magnitude();
@@ -168,7 +168,7 @@ impl Prover {
             self.target(),
             ExclusionMargin { slack: self.slack, of_uncertainty: 0.0 },
         );
-        if let Found::Cuts(cuts) = &mut found {
+        if let Contraction::Cuts(cuts) = &mut found {
             let mut at = here.at.clone();
             if cuts.iter().all(|cut| cut.shorten(&mut at)) {
                 let wide = contractor.too_wide(&at).is_some();
@@ -215,7 +215,7 @@ impl Prover {
             let known: Vec<Interval> =
                 beside.deviations.iter().zip(&beside.centre).map(|(z, centre)| *z + Interval::point(*centre)).collect();
             let found = seek(problem, &beside, &known, &own, self.target(), margin);
-            if let (Found::Contradiction(rows, _), true) = (&found, all.is_empty()) {
+            if let (Contraction::Contradiction(rows, _), true) = (&found, all.is_empty()) {
                 self.steps.push(Step::Exclude { by, rows: rows.clone() });
                 return Next::Empty;
             }
@@ -230,7 +230,7 @@ impl Prover {
                 }
             }
         }
-        if self.take(by, Found::Cuts(all), here) {
+        if self.take(by, Contraction::Cuts(all), here) {
             return Next::Empty;
         }
         let helped = self.contractors[here.level].share_left(&before, &here.at) < HELPED;
@@ -245,14 +245,14 @@ impl Prover {
     }
 
     /// Notes the result of a contraction, and applies it to the box; whether it is empty.
-    fn take(&mut self, by: By, found: Found, here: &mut Pending) -> bool {
+    fn take(&mut self, by: By, found: Contraction, here: &mut Pending) -> bool {
         match found {
-            Found::Contradiction(rows, _) => {
+            Contraction::Contradiction(rows, _) => {
                 self.steps.push(Step::Exclude { by, rows });
                 true
             }
-            Found::Cuts(cuts) if cuts.is_empty() => false,
-            Found::Cuts(cuts) => {
+            Contraction::Cuts(cuts) if cuts.is_empty() => false,
+            Contraction::Cuts(cuts) => {
                 let empty = cuts.iter().any(|cut| !cut.shorten(&mut here.at));
                 self.steps.push(Step::Contract { by, cuts });
                 empty

@@ -2,7 +2,7 @@
 
 use super::super::problem::{Problem, ROUNDING};
 use super::super::settings::{BoundedModel, DelayBound, SwitchedWhen};
-use super::format::{Certificate, Log, Searched};
+use super::format::{Certificate, LogRows, Searched};
 use super::unproved::{Unproved, malformed};
 use crate::experiment::Record;
 
@@ -19,7 +19,7 @@ fn listed(items: &[(bool, &str)]) -> String {
 impl Certificate {
     /// The records and the problem that they pose, which must be the file's.
     pub(super) fn problem(&self) -> Result<(Vec<Record>, Problem), Unproved> {
-        let record = |rows: &Log| Record::new(rows.time_s.clone(), rows.reading.clone(), rows.command.clone());
+        let record = |rows: &LogRows| Record::new(rows.time_s.clone(), rows.reading.clone(), rows.command.clone());
         let records: Vec<Record> = self
             .records
             .iter()

@@ -1,7 +1,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::super::simulated::Vehicle;
+use super::super::simulated::VehicleTerms;
 use super::*;
 
 const QUANTUM: f64 = 0.01;
@@ -23,10 +23,10 @@ fn about(truth: &[f64], problem: &Problem, random: &mut Pcg64Mcg) -> Vec<Interva
 }
 
 /// The number of boxes about the truth that are followed; contraction leaves the truth in each.
-fn followed(vehicle: &Vehicle, delay_known: bool, seed: u64) -> usize {
+fn followed(vehicle: &VehicleTerms, delay_known: bool, seed: u64) -> usize {
     let motion = vehicle.motion(110);
     let model = vehicle.model(delay_known, QUANTUM);
-    let problem = Problem::new(&[&Vehicle::record(&motion, QUANTUM)], &model).expect("a problem");
+    let problem = Problem::new(&[&VehicleTerms::record(&motion, QUANTUM)], &model).expect("a problem");
     let truth = vehicle.truth(&problem, &motion);
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let mut followed = 0;
@@ -46,15 +46,15 @@ fn followed(vehicle: &Vehicle, delay_known: bool, seed: u64) -> usize {
 
 #[test]
 fn contraction_of_a_box_leaves_the_true_motion_in_it() {
-    let drag = Vehicle { gain: 0.9, linear: 0.5, quadratic: 0.4, disturbance: 0.08, ..Vehicle::default() };
+    let drag = VehicleTerms { gain: 0.9, linear: 0.5, quadratic: 0.4, disturbance: 0.08, ..VehicleTerms::default() };
     let cases = [
         (drag, true),
-        (Vehicle { delayed: 5, ..drag }, false),
-        (Vehicle { lag_rate: 5.0, ..drag }, true),
-        (Vehicle { lag_rate: 5.0, quadratic: 0.0, delayed: 5, ..drag }, false),
-        (Vehicle { stiffness: 0.3, ..drag }, true),
-        (Vehicle { stiffness: 0.3, lag_rate: 8.0, linear: 0.0, delayed: 9, ..drag }, true),
-        (Vehicle { cubic: 0.2, quadratic: 0.0, ..drag }, true),
+        (VehicleTerms { delayed: 5, ..drag }, false),
+        (VehicleTerms { lag_rate: 5.0, ..drag }, true),
+        (VehicleTerms { lag_rate: 5.0, quadratic: 0.0, delayed: 5, ..drag }, false),
+        (VehicleTerms { stiffness: 0.3, ..drag }, true),
+        (VehicleTerms { stiffness: 0.3, lag_rate: 8.0, linear: 0.0, delayed: 9, ..drag }, true),
+        (VehicleTerms { cubic: 0.2, quadratic: 0.0, ..drag }, true),
     ];
     for (index, (vehicle, delay_known)) in cases.iter().enumerate() {
         let followed = followed(vehicle, *delay_known, 11 + index as u64);

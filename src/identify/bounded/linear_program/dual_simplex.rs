@@ -24,12 +24,12 @@ pub(in super::super) enum Outcome {
 
 /// The coefficients of an unknown, from the first row that has it to the last.
 #[derive(Default)]
-struct Column {
+struct SparseColumn {
     first: usize,
     entries: Vec<f64>,
 }
 
-impl Column {
+impl SparseColumn {
     fn at(&self, row: usize) -> f64 {
         row.checked_sub(self.first).and_then(|offset| self.entries.get(offset)).copied().unwrap_or(0.0)
     }
@@ -49,7 +49,7 @@ pub(in super::super) struct Programme {
     /// Which unknowns it has.
     places: Vec<usize>,
     /// Of each unknown.
-    columns: Vec<Column>,
+    columns: Vec<SparseColumn>,
     limits: Vec<f64>,
     /// Scale of each row.
     scales: Vec<f64>,
@@ -71,7 +71,7 @@ impl Programme {
         let own = |value: &dyn Fn(Interval) -> f64| places.iter().map(|place| value(deviations[*place])).collect();
         let mut programme = Self {
             places: places.to_vec(),
-            columns: places.iter().map(|_| Column::default()).collect(),
+            columns: places.iter().map(|_| SparseColumn::default()).collect(),
             limits: Vec::with_capacity(rows.limits.len()),
             scales: Vec::with_capacity(rows.limits.len()),
             numbers: Vec::with_capacity(rows.limits.len()),

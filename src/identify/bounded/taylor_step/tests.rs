@@ -31,7 +31,7 @@ fn about(value: f64, share: f64) -> Interval {
     Interval::point(value).inflate(share * value)
 }
 
-fn state(v: Interval) -> State {
+fn state(v: Interval) -> StateBox {
     [Interval::ZERO, v, Interval::point(U)]
 }
 
@@ -57,11 +57,11 @@ fn step(share: f64) -> Box<FlowStep> {
 }
 
 /// Without the remainder.
-fn cut(path: &mut Path) {
+fn cut(path: &mut TaylorPath) {
     path.iter_mut().for_each(|series| series[DEGREE] = Balls::ZERO);
 }
 
-fn point_after(step: &FlowStep, t: f64) -> State {
+fn point_after(step: &FlowStep, t: f64) -> StateBox {
     step.at(Interval::point(t)).at.expect("the point's own")
 }
 
@@ -230,7 +230,7 @@ fn the_error_bound_holds_with_every_term_of_the_equation() {
 }
 
 /// Whether what is enclosed holds an exponential that starts between 1 and 1.1, at the end of a step and in its middle.
-fn holds_exponential(within: &State, rate: f64, h: f64) -> bool {
+fn holds_exponential(within: &StateBox, rate: f64, h: f64) -> bool {
     [0.0, 0.5 * h, h].iter().all(|t| [1.0, 1.1].iter().all(|start| within[VELOCITY].contains(start * (rate * t).exp())))
 }
 
@@ -239,7 +239,7 @@ fn a_long_step_of_what_is_damped_is_enclosed_and_what_grows_is_not_by_its_first_
     let v = Interval::new(1.0, 1.1).expect("an interval");
     let start = [Interval::ZERO, v, Interval::ZERO];
     let linear = |rate: f64| {
-        move |component: usize, state: &State| match component {
+        move |component: usize, state: &StateBox| match component {
             POSITION => state[VELOCITY],
             VELOCITY => Interval::point(rate) * state[VELOCITY],
             _ => Interval::ZERO,
