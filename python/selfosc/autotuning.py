@@ -128,7 +128,7 @@ def autotune(
         Time between two commands of the controller, s; by default the record's.
     time, output, input : str, optional
         Names of the columns; by default the first of the usual names of controllers.
-    time_unit : {"s", "ms", "us", "ns"}, optional
+    time_unit : {"h", "min", "s", "ms", "us", "ns"}, optional
         Of the times; by default what the column's name ends in, else s.
     from_s, to_s : float, optional
         Only samples from and up to these times, s on the log's clock.

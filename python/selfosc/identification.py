@@ -177,7 +177,7 @@ def _fitted(details: dict[str, Any], records: int) -> list[tuple[int, list[float
 
 AnyPath = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 Method = Literal["all", "fit", "exact", "iso", "bounded"]
-TimeUnit = Literal["s", "ms", "us", "ns"]
+TimeUnit = Literal["h", "min", "s", "ms", "us", "ns"]
 BoundedQuantity = Literal["alpha", "beta", "beta_quadratic", "beta_cubic", "stiffness", "lag_s", "delay_s"]
 Switching = Literal["at-samples", "anywhere"]
 
@@ -260,7 +260,7 @@ def identify(
         For the bounds: the model has a restoring force, a lag of the force, cubic drag, linear drag that may drive.
     radians : bool
         The output is in radians, whatever it looks like.
-    time_unit : {"s", "ms", "us", "ns"}, optional
+    time_unit : {"h", "min", "s", "ms", "us", "ns"}, optional
         Of the times; by default what the column's name ends in, else s.
     neutral : float, optional
         The command that does nothing, as logged; it is taken off.

@@ -70,7 +70,8 @@ fn at_amplitude(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>, amplitude: f
     let output = |bias| relay.describing_function(&Sinusoid::new(bias, amplitude).ok()?).ok();
     let mean = |bias| output(bias).map(|df| df.f0 + axis.disturbance());
     let limit = (amplitude - relay.half_width()) * (1.0 - 4.0 * f64::EPSILON);
-    let bias = if mean(0.0) == Some(0.0) { 0.0 } else { scan::bracketed(mean, -limit, limit)? };
+    let balanced = mean(0.0).is_some_and(|mean| mean.abs() <= f64::EPSILON * relay.level());
+    let bias = if balanced { 0.0 } else { scan::bracketed(mean, -limit, limit)? };
     let df = output(bias)?;
     let drive = libm::hypot(df.p, df.q);
     // Inertia and drag over the amplitude, -f_R and f_I.

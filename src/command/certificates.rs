@@ -58,7 +58,12 @@ fn check_file(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<
     }
     let text = files::read(path)?;
     let none = |reason| Err(CommandError::NoCertificate { path: path.to_owned(), reason });
+    let without_log = || {
+        let reason = "--log: a log is compared with guaranteed bounds alone; leave it out".to_owned();
+        if logs.is_empty() { Ok(()) } else { Err(CommandError::Usage { reason }) }
+    };
     if let Ok(Named { claim }) = serde_json::from_str(&text) {
+        without_log()?;
         if claim == ProvedOscillation::CLAIM {
             return existence::check(path, &text, output);
         }
@@ -72,11 +77,12 @@ fn check_file(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<
     }
     if matches!(serde_json::from_str(&text), Ok(CertificateKind { certificate }) if certificate == OrbitCertificate::KIND)
     {
+        without_log()?;
         let proof = text.parse::<OrbitCertificate>();
         return match proof.and_then(|proof| Ok((proof.check()?, proof))) {
             Ok((orbits, proof)) => {
                 writeln!(output, "accepted  {}", proof.statement())?;
-                writeln!(output, "          {orbits} orbits")?;
+                writeln!(output, "          {orbits} {}", if orbits == 1 { "orbit" } else { "orbits" })?;
                 Ok(Outcome::Done)
             }
             Err(error @ (OrbitRefusal::Malformed { .. } | OrbitRefusal::Foreign { .. })) => none(error.to_string()),

@@ -91,6 +91,13 @@ pub(super) fn run(given: Loop<'_>, as_json: bool, output: &mut impl Write) -> Re
 /// What to change where nothing oscillates: a stable plant comes to rest between the relay's thresholds, or beside one of them.
 fn remedy(given: &Loop<'_>, plant: &TransferFunction) -> String {
     let stable = plant.poles().is_ok_and(|poles| poles.iter().all(|pole| pole.re < 0.0));
+    if plant.is_integrating() && given.low * given.high >= 0.0 {
+        return "the output of an integrating plant drifts: give levels of both signs (--relay HIGH,LOW)".to_owned();
+    }
+    if plant.static_gain().is_some_and(|gain| gain < 0.0) {
+        return "the plant's gain at rest is negative, and the relay drives the output away: change the sign of --num"
+            .to_owned();
+    }
     let Some(gain) = plant.static_gain().filter(|gain| stable && *gain > 0.0) else {
         return "raise the levels (--relay) or narrow the hysteresis (--half-width)".to_owned();
     };

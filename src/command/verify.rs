@@ -225,9 +225,10 @@ fn summary(findings: &[(&Claim, Finding)], output: &mut impl Write) -> Result<()
     let words = words.map(|word| format!("{} {word}", count(findings, word))).join(", ");
     let (refuted, wrong) = (refuted_as_printed(findings), not_as_stated(findings));
     let (claims, checked) = (findings.len(), kernel_checked(findings));
+    let noun = if claims == 1 { "claim" } else { "claims" };
     writeln!(
         output,
-        "\n{LEGEND}\n\n{claims} claims: {words}; {checked} kernel-checked as a whole; {refuted} refuted as printed; {wrong} not as stated"
+        "\n{LEGEND}\n\n{claims} {noun}: {words}; {checked} kernel-checked as a whole; {refuted} refuted as printed; {wrong} not as stated"
     )?;
     Ok(())
 }

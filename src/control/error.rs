@@ -69,6 +69,15 @@ pub enum ControlError {
         /// A limit of the same kind that is proved of some gains.
         within_reach: Option<RobustCriterion>,
     },
+    /// Nothing bounds the bandwidth of a loop without delay.
+    #[error(
+        "without a delay the limit holds up to {} rad/s and beyond: nothing bounds the bandwidth; give the delay of the loop (--delay) or \
+         the bandwidth (--bandwidth)", AtMost(*.kept_rad_s)
+    )]
+    NothingBounds {
+        /// The largest bandwidth tried, rad/s.
+        kept_rad_s: f64,
+    },
     /// A process of a box that is not proved to be stable under the gains.
     #[error(
         "the closed loop must be stable for every process of the intervals, and is not proved to be at inertia {}, drag {}, delay {} s; \
@@ -172,6 +181,6 @@ impl core::fmt::Display for Remedy {
 
 crate::numeric::codes! { pub ControlError {
     OutOfDomain.0, Plant.0, Overdamped => "overdamped", TooFast => "too-fast", NoBandwidth => "no-bandwidth",
-    OutOfReach => "out-of-reach", Unstable => "unstable", NotStabilised => "unstable",
+    OutOfReach => "out-of-reach", NothingBounds => "nothing-bounds", Unstable => "unstable", NotStabilised => "unstable",
     BelowSwitching => "below-switching", OnePhase => "one-phase", NoCriticalPoint => "no-critical-point",
 } }

@@ -10,7 +10,7 @@ use crate::numeric::{domain, golden_section};
 const SAMPLES: u32 = 1000;
 /// Steps of bisection: more than a float has bits.
 const STEPS: u32 = 80;
-/// Relative difference at which a crossing counts as one, not as a jump over the value.
+/// Difference, over the value or what the crossing started from, at which it counts as one, not as a jump over the value.
 const CROSSED: f64 = 1e-9;
 
 /// An amplitude and what the characteristic does there.
@@ -51,21 +51,22 @@ pub fn amplitudes(
     let solve = |amplitude| at(characteristic, bias, amplitude);
     let samples = sampled(characteristic, bias, range)?;
     let mut found = Vec::new();
-    let mut bracket = |low: Solution, high: Solution| {
+    // `reach`: the difference that a crossing may start from.
+    let mut bracket = |low: Solution, high: Solution, reach: f64| {
         let (mut low, mut high) = (low, high);
         for _ in 0..STEPS {
             let Ok(middle) = solve(0.5 * (low.amplitude + high.amplitude)) else { return };
             if (excess(middle) < 0.0) == (excess(low) < 0.0) { low = middle } else { high = middle }
         }
         let nearer = if excess(low).abs() < excess(high).abs() { low } else { high };
-        if excess(nearer).abs() <= CROSSED * nearer.df.p.abs().max(p.abs()) {
+        if excess(nearer).abs() <= CROSSED * p.abs().max(reach) {
             found.push(nearer);
         }
     };
     for (place, pair) in samples.windows(2).enumerate() {
         let (low, high) = (pair[0], pair[1]);
         if (excess(low) < 0.0) != (excess(high) < 0.0) {
-            bracket(low, high);
+            bracket(low, high, excess(low).abs().max(excess(high).abs()));
             continue;
         }
         // A turn towards the value, with the sample after these two farther away again.
@@ -76,12 +77,12 @@ pub fn amplitudes(
             let signed = |solution: Solution| if excess(low) < 0.0 { -excess(solution) } else { excess(solution) };
             let turn = minimum(low, beyond, &solve, signed);
             if (excess(turn) < 0.0) == (excess(low) < 0.0) {
-                if distance(nearest) <= CROSSED * p.abs() {
-                    bracket(nearest, nearest);
+                if distance(nearest) <= CROSSED * p.abs().max(distance(low)) {
+                    bracket(nearest, nearest, distance(low));
                 }
             } else {
-                bracket(low, turn);
-                bracket(turn, beyond);
+                bracket(low, turn, distance(low));
+                bracket(turn, beyond, distance(beyond));
             }
         }
     }

@@ -10,6 +10,12 @@ use super::{ExperimentError, Place};
 /// Unit of the times in a log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub enum TimeUnit {
+    /// Hours.
+    #[serde(rename = "h")]
+    Hours,
+    /// Minutes.
+    #[serde(rename = "min")]
+    Minutes,
     /// Seconds.
     #[serde(rename = "s")]
     Seconds,
@@ -26,12 +32,15 @@ pub enum TimeUnit {
 
 impl TimeUnit {
     /// All of them, the longest first.
-    pub const ALL: [Self; 4] = [Self::Seconds, Self::Milliseconds, Self::Microseconds, Self::Nanoseconds];
+    pub const ALL: [Self; 6] =
+        [Self::Hours, Self::Minutes, Self::Seconds, Self::Milliseconds, Self::Microseconds, Self::Nanoseconds];
 
     /// Name on the command line, and the end of a column's name after an underscore.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Self::Hours => "h",
+            Self::Minutes => "min",
             Self::Seconds => "s",
             Self::Milliseconds => "ms",
             Self::Microseconds => "us",
@@ -43,6 +52,8 @@ impl TimeUnit {
     #[must_use]
     pub fn per_second(self) -> f64 {
         match self {
+            Self::Hours => 1.0 / 3600.0,
+            Self::Minutes => 1.0 / 60.0,
             Self::Seconds => 1.0,
             Self::Milliseconds => 1e3,
             Self::Microseconds => 1e6,
@@ -63,8 +74,9 @@ pub(super) const SLOWEST_S: f64 = 10.0;
 pub(super) const FASTEST_S: f64 = 1e-4;
 /// Headings in radians count from -pi to pi or from 0 to 2 pi; this excess is attributed to rounding.
 const HEADING_MARGIN_RAD: f64 = 0.01;
-/// Distance of a command's middle from its neutral, in halves of its range, from which on another neutral is meant.
-const FAR_FROM_NEUTRAL: f64 = 4.0;
+/// Distance of a command's middle from its neutral, in halves of its range, from which on another neutral is meant: 2.5 for the
+/// pulses of a servo from 900 to 2100 us, its widest range.
+const FAR_FROM_NEUTRAL: f64 = 2.5;
 
 /// Refuses times that make no sense in seconds; slow ones only where no unit was given.
 pub(super) fn seconds(time_s: &[f64], unit_given: bool) -> Result<(), ExperimentError> {
@@ -126,19 +138,19 @@ pub(super) fn neutral(column: &str, input: &[f64], neutral: f64) -> Result<(), E
     Ok(())
 }
 
-/// Takes out jumps by more than half a turn; how many there were. Values that are not finite are left for the record to
+/// Takes out jumps by more than half a `turn`; how many there were. Values that are not finite are left for the record to
 /// refuse.
-pub(super) fn unwrap(angles: &mut [f64]) -> usize {
+pub(super) fn unwrap(angles: &mut [f64], turn: f64) -> usize {
     let (mut turns, mut jumps) = (0.0, 0);
     let Some(mut previous) = angles.first().copied() else { return 0 };
     for angle in angles {
         let jump = *angle - previous;
         previous = *angle;
-        if jump.abs() > PI && jump.is_finite() {
-            turns -= (jump / TAU).round();
+        if jump.abs() > 0.5 * turn && jump.is_finite() {
+            turns -= (jump / turn).round();
             jumps += 1;
         }
-        *angle += turns * TAU;
+        *angle += turns * turn;
     }
     jumps
 }

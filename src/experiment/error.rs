@@ -42,7 +42,8 @@ pub enum ExperimentError {
     },
     /// Too few samples for any identification.
     #[error(
-        "{samples} samples, at least {} needed; log longer or faster, or cut less off (--from, --to, --part)",
+        "{samples} samples in the part and between the times asked for, at least {} needed; cut less off (--from, --to, --part), or log longer \
+         or faster",
         Record::FEWEST_SAMPLES
     )]
     TooShort {
@@ -194,7 +195,7 @@ pub enum ExperimentError {
         count: usize,
     },
     /// A column is named for two quantities.
-    #[error("column {name} is read as {} and as {}; name another for one of them (--{} COL)", roles[0], roles[1], roles[1])]
+    #[error("column {name} is read as {} and as {}; name another for one of them (--{} COL, --{} COL)", roles[0], roles[1], roles[0], roles[1])]
     SameColumn {
         /// Its name.
         name: String,
@@ -203,7 +204,7 @@ pub enum ExperimentError {
     },
     /// Times that make no sense in seconds.
     #[error(
-        "samples are {} s apart in the middle, and must be from {} to {} s: say the unit of the log's times, s, ms, us or ns \
+        "samples are {} s apart in the middle, and must be from {} to {} s: say the unit of the log's times, h, min, s, ms, us or ns \
          (--time-unit)", About(*.interval_s), Plain(FASTEST_S), Plain(SLOWEST_S)
     )]
     TimeUnit {

@@ -1,5 +1,6 @@
 //! Reading logs: delimiter-separated text with a header.
 
+use core::f64::consts::TAU;
 use std::borrow::Cow;
 use std::io::Read;
 use std::num::NonZeroUsize;
@@ -166,8 +167,13 @@ impl Columns {
                 return Err(ExperimentError::Ragged { line, cells: row.len(), columns: names.len() });
             }
             let cell = row.get(column).unwrap_or("");
-            let date = if column == columns[0] { date_s(cell).map(|time_s| time_s * unit.per_second()) } else { None };
-            date.map_or_else(|| number(cell, delimiter, line, &names[column]), Ok)
+            let other = match cell.to_ascii_lowercase().as_str() {
+                _ if column == columns[0] => date_s(cell).map(|time_s| time_s * unit.per_second()),
+                "on" if column == columns[2] => Some(1.0),
+                "off" if column == columns[2] => Some(0.0),
+                _ => None,
+            };
+            other.map_or_else(|| number(cell, delimiter, line, &names[column]), Ok)
         };
         let mut values: [Vec<f64>; 3] = Default::default();
         let mut lines = Vec::new();
@@ -255,15 +261,19 @@ impl Columns {
         let place = |sample: usize| (rows.place)(kept[sample]);
         let name = &columns[1];
         let lower = name.to_lowercase();
-        let degrees = !self.radians && !self.process && (self.degrees || lower.ends_with("_deg"));
-        let wrap = !self.process && (self.wrap || is_named_heading(&lower));
-        if wrap && !degrees && !self.radians {
-            clinic::radians(name, &output)?;
+        let in_degrees = !self.radians && (self.degrees || lower.ends_with("_deg"));
+        let wrap = self.wrap || is_named_heading(&lower);
+        let reach = clinic::radians(name, &output);
+        if wrap && !in_degrees && !self.radians && !self.process {
+            reach.clone()?;
         }
+        let degrees = in_degrees && !self.process;
         if degrees {
             output.iter_mut().for_each(|angle| *angle = angle.to_radians());
         }
-        let unwrapped = if wrap { clinic::unwrap(&mut output) } else { 0 };
+        // The output of a process stays in its unit.
+        let turn = if self.process && (in_degrees || reach.is_err()) { 360.0 } else { TAU };
+        let unwrapped = if wrap { clinic::unwrap(&mut output, turn) } else { 0 };
         if !wrap && !self.process {
             clinic::turns(name, &output, degrees, place)?;
         }

@@ -2,7 +2,10 @@
 
 /// A number with `digits` significant digits; very large and very small numbers in scientific notation.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 || !value.is_finite() {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
         return value.to_string();
     }
     let scientific = format!("{value:.*e}", digits.saturating_sub(1));
@@ -26,6 +29,7 @@ mod tests {
     fn every_number_keeps_its_digits() {
         for (value, shown) in [
             (0.0, "0"),
+            (-0.0, "0"),
             (1.0, "1.00000"),
             (-12.345_678, "-12.3457"),
             (999_999.9, "1000000"),

@@ -283,7 +283,7 @@ fn shared_names(modules: &[Module]) -> BTreeMap<String, Vec<String>> {
 }
 
 /// Names of types that may stand in two or more files of `src`.
-const MOST_SHARED_NAMES: usize = 24;
+const MOST_SHARED_NAMES: usize = 25;
 
 #[test]
 fn few_types_share_a_name_and_none_in_one_room() {

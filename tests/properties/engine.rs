@@ -10,8 +10,8 @@ use selfosc::proof::branch_and_bound::prove_positive;
 use selfosc::proof::enclosure::{Roots, newton};
 use selfosc::proof::identity::{IdentityJet, prove_zero, prove_zero_of_two};
 use selfosc::proof::inequality::Inequality;
-use selfosc::proof::margin::VariableBox;
 use selfosc::proof::margin::Margin;
+use selfosc::proof::margin::VariableBox;
 use selfosc::proof::{Change, Gradient, NotProved, formula};
 
 use crate::tolerance::{CENTRAL_DIFFERENCE, ROUNDING};
@@ -125,7 +125,8 @@ fn braking_by_drag_alone() {
 /// Zero with fourteen derivatives in the middle, a millionth at the ends.
 #[test]
 fn a_remainder_is_taken_over_the_whole_cell() {
-    let flat = |height: f64| move |t: IdentityJet| [times(height, (0..20).fold(IdentityJet::one(), |power, _| power * t))];
+    let flat =
+        |height: f64| move |t: IdentityJet| [times(height, (0..20).fold(IdentityJet::one(), |power, _| power * t))];
     assert!(prove_zero(flat(1e-6), -1.0, 1.0, 1e-9, 5000).is_err());
     assert!(prove_zero(flat(1e-10), -1.0, 1.0, 1e-9, 5000).is_ok());
 }

@@ -58,6 +58,31 @@ fn delimiters_are_seen_and_a_decimal_comma_understood() {
     }
 }
 
+/// Minutes and hours by the column's name, switches by their words, and the pulses of a servo, whose neutral is not zero.
+#[test]
+fn logs_of_households_are_read() {
+    let plain = log(20);
+    let record =
+        |text: &str| Columns::default().read(text.as_bytes()).map(|log| log.record).map_err(|error| error.code());
+    let expected = record(&plain).unwrap();
+    for (name, seconds) in [("time_min", 60.0), ("time_h", 3600.0)] {
+        let slow = |line: &str| {
+            let (time, rest) = line.split_once(',').unwrap();
+            time.parse::<f64>().map_or(format!("{name},{rest}\n"), |time| format!("{},{rest}\n", time / seconds))
+        };
+        let columns = Columns { time: Some(name.to_owned()), ..Columns::default() };
+        let read = columns.read(plain.lines().map(slow).collect::<String>().as_bytes()).unwrap().record;
+        assert!(read.time_s().iter().zip(expected.time_s()).all(|(a, b)| (a - b).abs() < 1e-9), "{name}");
+    }
+    let switched = plain.replace(",1\n", ",On\n").replace(",-1\n", ",off\n");
+    assert_eq!(record(&switched).unwrap().input()[..8], [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
+    assert_eq!(record(&plain.replacen(",2.5,", ",on,", 1)), Err("not-a-number"));
+    for [high, low] in [["2000", "1000"], ["1900", "1100"], ["2100", "900"]] {
+        let pulses = plain.replace(",1\n", &format!(",{high}\n")).replace(",-1\n", &format!(",{low}\n"));
+        assert_eq!(record(&pulses), Err("neutral"));
+    }
+}
+
 /// Rows of the output alone, each behind a row of the command alone, are the log that has both; a row before the first command is none.
 #[test]
 fn commands_hold_where_topics_are_merged() {
@@ -79,8 +104,8 @@ fn commands_hold_where_topics_are_merged() {
         let late: String = rows[1..].iter().map(followed).collect();
         assert_eq!(read(&holding, &format!("{}\n{late}", rows[0].join(","))), read(&Columns::default(), &plain));
     }
-    assert_eq!(read(&holding, &merged.replacen(",,-1", ",,off", 1)), Err("not-a-number"));
-    assert_eq!(read(&holding, &plain.replacen(",-1", ",off", 1)), Err("not-a-number"));
+    assert_eq!(read(&holding, &merged.replacen(",,-1", ",,none", 1)), Err("not-a-number"));
+    assert_eq!(read(&holding, &plain.replacen(",-1", ",none", 1)), Err("not-a-number"));
     assert_eq!(read(&holding, &merged.replacen(",2.5,", ",n/a,", 1)), Err("not-a-number"));
 }
 

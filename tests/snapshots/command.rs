@@ -279,6 +279,24 @@ fn an_undecided_search_is_not_called_none() {
     assert!(answer.contains("\nnot decided: periods from "), "{answer}");
 }
 
+/// What is to be changed where nothing oscillates, or nothing bounds the answer.
+#[test]
+fn a_remedy_fits_the_fault() {
+    let relay = ["--relay", "1", "--half-width", "0.1"];
+    let cases: [(&[&str], &str); 3] = [
+        (&["predict", "--num", "1", "--den", "1,0,1"], "not decided: periods above "),
+        (&["predict", "--num", "-1", "--den", "1,1"], "change the sign of --num"),
+        (&["predict", "--num", "1", "--den", "1,0", "--delay", "0.5", "--relay", "1,0"], "give levels of both signs"),
+    ];
+    for (case, said) in cases {
+        let more = if case.contains(&"--relay") { &relay[2..] } else { &relay[..] };
+        let (status, answer, _) = output(&[case, more].concat());
+        assert!(status == Some(1) && answer.contains(said), "{case:?}: {answer}");
+    }
+    assert!(refused(&["tune", "--alpha", "1", "--beta", "1", "--ms", "1.4"]).contains("nothing bounds the bandwidth"));
+    assert!(done(&["tune", "--alpha", "1", "--beta", "1", "--delay", "0.01", "--ms", "1.4"]).contains("at most 1.4"));
+}
+
 /// A gain has its amplitudes, and gains have their characteristic.
 #[test]
 fn the_other_way_round() {
@@ -287,6 +305,15 @@ fn the_other_way_round() {
     let found = answer["amplitudes"].as_array().unwrap();
     assert_eq!(found.len(), 2);
     assert!(found.iter().all(|one| (one["p"].as_f64().unwrap() - 1.0).abs() < 1e-12));
+    // Zeros of the Bessel function J_1.
+    let zeros = done(&["df", "sine", "--gain", "0", "--json"]);
+    let zeros: serde_json::Value = serde_json::from_str(&zeros).unwrap();
+    for (place, zero) in [3.831_705_970_207_512, 7.015_586_669_815_619].into_iter().enumerate() {
+        assert!((zeros["amplitudes"][place]["amplitude"].as_f64().unwrap() - zero).abs() < 1e-9, "{zeros}");
+    }
+    // A jump over the value is no amplitude.
+    let (status, answer, _) = output(&["df", "quantizer", "--set", "step=1", "--gain", "0.01"]);
+    assert_eq!((status, answer.contains("no amplitude")), (Some(1), true));
     let (status, answer, _) = output(&["df", "saturation", "--set", "breakpoint=1", "--gain", "3"]);
     assert_eq!((status, answer.contains("no amplitude")), (Some(1), true));
     let folder = tempfile::tempdir().unwrap();

@@ -235,6 +235,27 @@ fn a_record_given_twice_is_named() {
     assert!(!selfosc(&folder, &["identify", "log.csv"]).1.contains("same-record"));
 }
 
+/// A heading that passes north is one motion for `autotune` too, in the unit of its log.
+#[test]
+fn a_process_of_a_heading_has_no_jumps() {
+    let pool = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/pool/heading.csv")).unwrap();
+    let place = pool.lines().next().unwrap().split(',').position(|name| name == "heading_deg").unwrap();
+    let wrapped = pool.lines().map(|line| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if let Ok(heading) = cells[place].parse::<f64>() {
+            cells[place] = format!("{:.6}", (heading + 350.0).rem_euclid(360.0));
+        }
+        cells.join(",") + "\n"
+    });
+    let folder = written(wrapped.collect::<String>());
+    std::fs::write(folder.path().join("pool.csv"), &pool).unwrap();
+    let gain = |log: &str| {
+        let (_, answer, _) = selfosc(&folder, &["autotune", log, "--output", "heading_deg", "--json"]);
+        serde_json::from_str::<serde_json::Value>(&answer).unwrap()["gains"]["proportional"].as_f64().unwrap()
+    };
+    assert!((gain("log.csv") / gain("pool.csv") - 1.0).abs() < 1e-3);
+}
+
 /// Where terms are looked for in a part of the record only, the answer says so, and its interval is that of all samples.
 #[test]
 fn a_long_record_says_where_terms_were_looked_for() {
@@ -297,6 +318,15 @@ fn gains_of_a_firmware_are_shares_of_full_power() {
             assert!((gain / (factor * expected) - 1.0).abs() < 1e-3, "{gain} for {factor} times {expected}");
         }
     }
+    // The level of an inverted pin.
+    let inverted = |line: &str| {
+        let (before, command) = line.rsplit_once(',').unwrap();
+        command.parse::<f64>().map_or(line.to_owned(), |command| format!("{before},{}", 1.0 - command))
+    };
+    let pin = whole.lines().map(inverted).collect::<Vec<_>>().join("\n");
+    std::fs::write(folder.path().join("pin.csv"), pin).unwrap();
+    let (status, _, message) = selfosc(&folder, &["autotune", "pin.csv", "--form", "marlin"]);
+    assert!(status == 2 && message.contains("firmware takes no negative gains"), "{message}");
     let (status, _, message) = selfosc(&folder, &["autotune", "half.csv", "--form", "klipper"]);
     assert_eq!(status, 2);
     assert!(

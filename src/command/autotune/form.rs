@@ -40,6 +40,12 @@ impl GainForm {
     ) -> Result<String, &'static str> {
         let [p, i, d] = [gains.proportional(), gains.integral(), gains.derivative()].map(|gain| sign * gain);
         let number = |value: f64| significant(value, 5);
+        if self.is_of_firmware() && p < 0.0 {
+            return Err(
+                "the output falls as the command rises, and firmware takes no negative gains: log the power of the heater, \
+                        not the level of an inverted pin, or choose --form parallel",
+            );
+        }
         // Firmware counts the command as a share of full power, or in 255ths.
         let of_full = |full: f64| [p, i, d].map(|gain| gain * full / full_power);
         Ok(match self {
@@ -68,23 +74,32 @@ impl GainForm {
             }
             Self::Klipper => {
                 let [p, i, d] = of_full(255.0);
-                format!("control: pid\npid_Kp: {p:.3}\npid_Ki: {i:.4}\npid_Kd: {d:.3}")
+                format!("control: pid\npid_Kp: {}\npid_Ki: {}\npid_Kd: {}", plain(p), plain(i), plain(d))
             }
             Self::Marlin => {
                 let [p, i, d] = of_full(255.0);
-                format!("M301 P{p:.3} I{i:.4} D{d:.3}")
+                format!("M301 P{} I{} D{}", plain(p), plain(i), plain(d))
             }
             Self::Reprap => {
                 let [p, i, d] = of_full(255.0);
-                format!("M301 H1 P{p:.3} I{i:.4} D{d:.3}")
+                format!("M301 H1 P{} I{} D{}", plain(p), plain(i), plain(d))
             }
             Self::Esphome => {
                 let [p, i, d] = of_full(1.0);
                 let samples = (gains.filter_s() / interval_s).ceil().max(1.0);
                 format!(
-                    "control_parameters:\n  kp: {p:.5}\n  ki: {i:.6}\n  kd: {d:.4}\n  derivative_averaging_samples: {samples:.0}"
+                    "control_parameters:\n  kp: {}\n  ki: {}\n  kd: {}\n  derivative_averaging_samples: {samples:.0}",
+                    plain(p),
+                    plain(i),
+                    plain(d)
                 )
             }
         })
     }
+}
+
+/// Five digits without an exponent, in which firmware reads another parameter.
+fn plain(value: f64) -> String {
+    let decimals = if value == 0.0 { 0.0 } else { 4.0 - libm::floor(libm::log10(value.abs())) };
+    format!("{value:.*}", decimals.clamp(0.0, 12.0) as usize)
 }

@@ -196,6 +196,9 @@ impl PlacedGains<'_> {
             let within_reach = self.within_reach(&at, limit);
             return Err(ControlError::OutOfReach { least_rad_s, most_rad_s, within_reach });
         };
+        if first == 0 && self.model.ranges().delay_s.upper().max(self.axis.delay_s()) == 0.0 {
+            return Err(ControlError::NothingBounds { kept_rad_s: at[0] });
+        }
         let (mut low, mut high) = (at[first], at[first.saturating_sub(1)]);
         for _ in 0..HALVINGS {
             let middle = (low * high).sqrt();

@@ -126,7 +126,7 @@ impl Tuned {
         writeln!(
             output,
             "\nF: unit of the command, {x}: {}",
-            if self.degrees { "the log's degrees as radians" } else { "unit of the output" }
+            if self.degrees { "an angle in radians, also of a log in degrees" } else { "unit of the output" }
         )?;
         Ok(())
     }

@@ -176,7 +176,7 @@ pub fn orbits(
     });
     open.extend(found.not_covered);
     if let Some(from) = found.searched_from {
-        if period_s.is_some() {
+        if period_s.is_some() || from == f64::INFINITY {
             open.extend(Interval::new(range.shortest, from));
         } else {
             listing.range_s[0] = Some(from);
