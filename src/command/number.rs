@@ -40,7 +40,7 @@ pub(super) fn time_unit(text: &str) -> Result<TimeUnit, String> {
     TimeUnit::ALL
         .into_iter()
         .find(|unit| unit.name() == text)
-        .ok_or_else(|| "must be s, ms, us or ns; name the unit of the log's times".to_owned())
+        .ok_or_else(|| "must be h, min, s, ms, us or ns; name the unit of the log's times".to_owned())
 }
 
 fn within(text: &str, limit: Limit) -> Result<f64, String> {

@@ -42,8 +42,7 @@ pub enum ExperimentError {
     },
     /// Too few samples for any identification.
     #[error(
-        "{samples} samples in the part and between the times asked for, at least {} needed; cut less off (--from, --to, --part), or log longer \
-         or faster",
+        "{samples} samples, at least {} needed; cut less off (--from, --to), name a part that the log has (--part), or log longer or faster",
         Record::FEWEST_SAMPLES
     )]
     TooShort {

