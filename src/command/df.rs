@@ -38,7 +38,7 @@ pub(super) struct Arguments {
     /// Amplitude X of the input
     #[arg(long, value_parser = number, value_name = "X", required_unless_present_any = ["list", "fit", "gain", "page"], conflicts_with = "gain", allow_negative_numbers = true)]
     amplitude: Option<f64>,
-    /// In place of the amplitude: every amplitude from 0.001 to 1000 at which P has this value
+    /// In place of the amplitude: amplitudes from 0.001 to 1000 at which P has this value; of solutions nearer to each other than 1.4 % some may be missed
     #[arg(long, value_parser = number, value_name = "P", allow_negative_numbers = true)]
     gain: Option<f64>,
     /// Which characteristics have the gains of this CSV file (columns amplitude and p), the best first

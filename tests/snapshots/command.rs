@@ -294,6 +294,9 @@ fn a_remedy_fits_the_fault() {
         assert!(status == Some(1) && answer.contains(said), "{case:?}: {answer}");
     }
     assert!(refused(&["tune", "--alpha", "1", "--beta", "1", "--ms", "1.4"]).contains("nothing bounds the bandwidth"));
+    let forced = ["tune", "--alpha", "1", "--delay", "0.3", "--bandwidth", "0.3", "--delta", "0.5", "--limit"];
+    assert!(refused(&with(&forced, &["0.4"])).contains("raise the limit (--limit)"));
+    assert!(done(&with(&forced, &["0.6"])).contains("under the constant force of 0.5"));
     assert!(done(&["tune", "--alpha", "1", "--beta", "1", "--delay", "0.01", "--ms", "1.4"]).contains("at most 1.39"));
 }
 

@@ -6,6 +6,7 @@ use crate::control::{
     AxisModel, ControlError, Controller, Gains, OpenLoop, ProcessIntervals, RobustCriterion, StepResponse, Tuning,
     WorstMargins,
 };
+use crate::numeric::{Limit, domain};
 use crate::plant::DragAxis;
 
 /// Samples in the time constant of the double pole, and time constants in the simulated step: the hold is a
@@ -114,6 +115,9 @@ impl PlacedGains<'_> {
         let (model, w) = (AxisModel { delta, ..self.model.values() }, tuning.double_pole_rad_s());
         let mut controller = Controller::new(tuning.gains());
         if let Some(limit) = self.wanted.limit {
+            let remedy =
+                "a larger constant force drives the axis away: raise the limit (--limit), or trim the force (--delta)";
+            domain::require("limit", limit, "command units", Limit::Above(delta.abs()), remedy)?;
             controller = controller.with_limits(-limit, limit)?;
         }
         StepResponse::simulate(model, controller, self.wanted.step, SAMPLES * w, TIME_CONSTANTS / w)

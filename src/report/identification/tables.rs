@@ -189,7 +189,7 @@ fn drag_sentence(found: &Identification, reported: &Reported) -> String {
         return format!("Drag was taken to be {}.", law.name());
     }
     let laws = reported.laws;
-    let gap = |law: DragLaw| laws.of(law).map_or(0.0, |value| -value);
+    let gap = |law: DragLaw| laws.of(law).map_or(0.0, |value| (0.0 - value).max(0.0));
     match laws.verdict() {
         Some(DragVerdict::NotDistinguishable) => format!(
             "Neither simple drag law is refuted: linear drag alone loses {:.1} and quadratic drag alone {:.1} in log-likelihood.",
