@@ -114,7 +114,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     if arguments.json {
         let answer = json!({
             "nonlinearity": entry.name,
-            "params": parameters(entry, &values),
+            "params": gain::parameters(entry, &values),
             "amplitude": amplitude,
             "bias": arguments.bias,
             "f0": f0,
@@ -131,15 +131,6 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         writeln!(output, "F_0 = {f0}\nP   = {p}\nQ   = {q}")?;
     }
     Ok(Outcome::Done)
-}
-
-/// Values by the names of the parameters: a number as a number, points as pairs.
-pub(super) fn parameters(entry: &Entry, values: &[f64]) -> serde_json::Map<String, serde_json::Value> {
-    let plain = |setting| match setting {
-        Setting::Number(number) => json!(number),
-        Setting::Points(points) => json!(points),
-    };
-    entry.settings(values).into_iter().map(|(name, value)| (name.to_owned(), plain(value))).collect()
 }
 
 fn enclose(

@@ -5,10 +5,9 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::df::parameters;
 use super::error::Given;
 use super::{CommandError, Outcome, files, write_json};
-use crate::describing::{Boxed, Entry, FittedCharacteristic, amplitudes, fit};
+use crate::describing::{Boxed, Entry, FittedCharacteristic, Setting, amplitudes, fit};
 use crate::files::{LONGEST_WORD, cut};
 use crate::numeric::domain::Plain;
 use crate::numeric::significant;
@@ -96,4 +95,13 @@ fn points(path: &Path) -> Result<Vec<(f64, f64)>, CommandError> {
         points.push((number(amplitude)?, number(p)?));
     }
     Ok(points)
+}
+
+/// Values by the names of the parameters: a number as a number, points as pairs.
+pub(super) fn parameters(entry: &Entry, values: &[f64]) -> serde_json::Map<String, serde_json::Value> {
+    let plain = |setting| match setting {
+        Setting::Number(number) => json!(number),
+        Setting::Points(points) => json!(points),
+    };
+    entry.settings(values).into_iter().map(|(name, value)| (name.to_owned(), plain(value))).collect()
 }

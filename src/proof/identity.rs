@@ -22,8 +22,8 @@ pub type IdentityJet = Jet<ORDER>;
 ///
 /// ```
 /// use selfosc::numeric::Real;
-/// use selfosc::proof::identity::{Series, prove_zero};
-/// let pythagoras = |factor: f64| move |t: Series| [t.sin().square() + t.cos().square() - Series::from_f64(factor)];
+/// use selfosc::proof::identity::{IdentityJet, prove_zero};
+/// let pythagoras = |factor: f64| move |t: IdentityJet| [t.sin().square() + t.cos().square() - IdentityJet::from_f64(factor)];
 /// assert!(prove_zero(pythagoras(1.0), 0.0, 10.0, 1e-13, 1000).is_ok());
 /// assert!(prove_zero(pythagoras(1.00001), 0.0, 10.0, 1e-13, 1000).is_err());
 /// ```
