@@ -14,8 +14,6 @@ use crate::nonlinearity::Sinusoid;
 use crate::numeric::{domain, scan};
 use crate::plant::TransferFunction;
 
-/// Amplitudes searched unless others are given, in input units.
-pub const AMPLITUDES: RangeInclusive<f64> = 1e-6..=1e6;
 /// Loop gain below which no oscillation can be near: the curve is not refined there.
 const QUIET: f64 = 0.3;
 /// Two solutions nearer than this, relative, are the same.
@@ -80,7 +78,7 @@ pub struct HarmonicBalance<'a, N> {
     pub(super) plant: &'a TransferFunction,
     describing: N,
     bias: Bias,
-    amplitude: RangeInclusive<f64>,
+    pub(crate) amplitude: RangeInclusive<f64>,
     omega_rad_s: RangeInclusive<f64>,
 }
 
@@ -104,7 +102,7 @@ where
         let fastest = corners.iter().copied().reduce(f64::max).unwrap_or(1.0);
         let highest = if delay > 0.0 { (10.0 * fastest).max(100.0 / delay) } else { 1e3 * fastest };
         let omega_rad_s = 1e-3 * slowest..=highest;
-        Ok(Self { plant, describing, bias: Bias::Fixed(0.0), amplitude: AMPLITUDES, omega_rad_s })
+        Ok(Self { plant, describing, bias: Bias::Fixed(0.0), amplitude: 1e-6..=1e6, omega_rad_s })
     }
 
     /// With another condition on the bias.

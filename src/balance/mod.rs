@@ -13,7 +13,7 @@ mod rigorous;
 pub use drag_axis::AxisOscillation;
 pub use error::BalanceError;
 pub use harmonics::MultiHarmonic;
-pub use intersections::{AMPLITUDES, Bias, HarmonicBalance, Intersection};
+pub use intersections::{Bias, HarmonicBalance, Intersection};
 pub use nyquist::{negative_inverse_locus, nyquist_locus};
 pub use rigorous::{
     CannotTell, ExistenceError, HarmonicOrders, LipschitzLoop, OddCharacteristic, Oscillations, ProvedOscillation,

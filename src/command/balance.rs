@@ -9,7 +9,7 @@ use serde_json::json;
 use super::error::Given;
 use super::number::number;
 use super::{CommandError, Outcome, existence, files, orbits, write_json};
-use crate::balance::{AMPLITUDES, Bias, HarmonicBalance, Intersection};
+use crate::balance::{Bias, HarmonicBalance, Intersection};
 use crate::describing::{Entry, Setting};
 use crate::numeric::significant;
 use crate::orbit::{ListedOrbit, TwoLevelRelay};
@@ -112,8 +112,8 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
             output,
             "no oscillation: -1/N of amplitudes from {:e} to {:e} does not meet the plant's curve between {from:.3e} and {to:.3e} rad/s; \
              try another gain (--num), or units in which amplitudes are near 1",
-            AMPLITUDES.start(),
-            AMPLITUDES.end()
+            balance.amplitude.start(),
+            balance.amplitude.end()
         )?;
     } else {
         print(&found, &exact, &by_loeb, output)?;

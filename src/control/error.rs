@@ -71,8 +71,8 @@ pub enum ControlError {
     },
     /// Nothing bounds the bandwidth of a loop without delay.
     #[error(
-        "without a delay the limit holds up to {} rad/s and beyond: nothing bounds the bandwidth; give the delay of the loop (--delay) or \
-         the bandwidth (--bandwidth)", AtMost(*.kept_rad_s)
+        "at {} rad/s, the largest bandwidth tried, the limit is still met: without a delay nothing bounds the bandwidth; give the delay of \
+         the loop (--delay) or the bandwidth (--bandwidth)", AtMost(*.kept_rad_s)
     )]
     NothingBounds {
         /// The largest bandwidth tried, rad/s.

@@ -12,7 +12,7 @@ use crate::files::{LONGEST_WORD, cut};
 
 /// Names tried for each column, best first, as a message lists them.
 const TIME: &str =
-    "time_s, time, t, timestamp, time_ms, time_us, time_ns, timestamp_s, timestamp_ms, timestamp_us, timestamp_ns";
+    "time_s, time, t, timestamp, time_ms, time_us, time_ns, time_min, time_h, timestamp_s, timestamp_ms, timestamp_us, timestamp_ns";
 const OUTPUT: &str = "heading_deg, yaw_deg, heading, yaw, depth_m, position_m, position, output, y, depth, temperature";
 const INPUT: &str = "command, input, u, pwm, duty";
 /// The same where a controller's output is the command.
@@ -37,7 +37,7 @@ const LONGEST_LIST: usize = 200;
 #[serde(default, deny_unknown_fields)]
 pub struct Columns {
     /// Name of the time column, in upper or lower case; by default the first of `time_s`, `time`, `t`, `timestamp`, `time_ms`,
-    /// `time_us`, `time_ns`, `timestamp_s` and so on. Of several columns of one name, `name#2` is the second.
+    /// `time_us`, `time_ns`, `time_min`, `time_h`, `timestamp_s` and so on. Of several columns of one name, `name#2` is the second.
     pub time: Option<String>,
     /// Name of the output column; by default the first of `heading_deg`, `yaw_deg`, `heading`, `yaw`, `depth_m`,
     /// `position_m`, `position`, `output`, `y`, `depth`, `temperature`.

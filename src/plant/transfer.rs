@@ -149,8 +149,8 @@ impl TransferFunction {
         if value.is_finite() { Ok(value) } else { Err(PlantError::PoleAt { omega_rad_s }) }
     }
 
-    /// Roots of the denominator, rad/s, the eigenvalues of its companion matrix. A root of multiplicity m comes out with
-    /// an error of about the m-th root of the rounding error.
+    /// Roots of the denominator, rad/s, the eigenvalues of its companion matrix; those at s = 0 are exact. Another root of
+    /// multiplicity m comes out with an error of about the m-th root of the rounding error.
     ///
     /// # Errors
     /// [`PlantError::Eigenvalues`] where the iteration does not converge.
@@ -191,6 +191,10 @@ pub(super) fn companion(descending: &[f64]) -> DMatrix<f64> {
     })
 }
 
+/// Roots at zero are exact: they are those of the trailing coefficients, and only the others are computed.
 fn roots(descending: &[f64]) -> Result<Vec<Complex<f64>>, PlantError> {
-    eigenvalues(&companion(descending))
+    let trailing = descending.iter().rev().take_while(|coefficient| **coefficient == 0.0).count();
+    let mut roots = eigenvalues(&companion(&descending[..descending.len() - trailing]))?;
+    roots.extend(core::iter::repeat_n(Complex::new(0.0, 0.0), trailing));
+    Ok(roots)
 }

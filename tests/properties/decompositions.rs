@@ -12,6 +12,17 @@ fn judge(matrix: &DMatrix<f64>) -> faer::Mat<f64> {
     faer::Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)])
 }
 
+/// A chain of integrators has its poles at zero, and a numerator its zeros, to the last bit.
+#[test]
+fn poles_at_zero_are_exact() {
+    let zero = Complex::new(0.0, 0.0);
+    let count = |roots: Vec<Complex<f64>>| roots.iter().filter(|root| **root == zero).count();
+    let plant = TransferFunction::new(&[1.0], &[1.0, 3.0, 2.0, 0.0, 0.0]).unwrap();
+    assert_eq!((plant.poles().unwrap().len(), count(plant.poles().unwrap())), (4, 2));
+    let washout = TransferFunction::new(&[2.0, 0.0], &[1.0, 3.0, 2.0]).unwrap();
+    assert_eq!((count(washout.zeros().unwrap()), count(washout.poles().unwrap())), (1, 0));
+}
+
 /// Distance to the nearest matrix that has this eigenvalue, relative to the norm: the smallest singular value of `A - z I`,
 /// written in real numbers. `None` where the judge's own iteration does not converge, once in some ten thousand.
 fn backward_error(matrix: &DMatrix<f64>, z: Complex<f64>) -> Option<f64> {

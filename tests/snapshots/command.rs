@@ -291,13 +291,24 @@ fn a_remedy_fits_the_fault() {
     for (case, said) in cases {
         let more = if case.contains(&"--relay") { &relay[2..] } else { &relay[..] };
         let (status, answer, _) = output(&[case, more].concat());
-        assert!(status == Some(1) && answer.contains(said), "{case:?}: {answer}");
+        assert!(status == Some(1) && answer.contains(said) && !answer.contains(" inf"), "{case:?}: {answer}");
     }
-    assert!(refused(&["tune", "--alpha", "1", "--beta", "1", "--ms", "1.4"]).contains("nothing bounds the bandwidth"));
+    assert!(
+        refused(&["tune", "--alpha", "1", "--beta", "1", "--ms", "1.4"])
+            .contains("the limit is still met: without a delay")
+    );
     let forced = ["tune", "--alpha", "1", "--delay", "0.3", "--bandwidth", "0.3", "--delta", "0.5", "--limit"];
     assert!(refused(&with(&forced, &["0.4"])).contains("raise the limit (--limit)"));
     assert!(done(&with(&forced, &["0.6"])).contains("under the constant force of 0.5"));
     assert!(done(&["tune", "--alpha", "1", "--beta", "1", "--delay", "0.01", "--ms", "1.4"]).contains("at most 1.39"));
+}
+
+/// A plant's pole at s = 0 bounds no range of frequencies.
+#[test]
+fn rounding_is_not_printed_as_a_number() {
+    let (_, answer, _) =
+        output(&["balance", "--nonlinearity", "saturation", "--set", "breakpoint=1", "--num", "1", "--den", "1,1,0,0"]);
+    assert!(answer.contains("between 1.000e-3 and 1.000e3 rad/s"), "{answer}");
 }
 
 /// A gain has its amplitudes, and gains have their characteristic.

@@ -233,6 +233,16 @@ fn a_record_given_twice_is_named() {
     let line = text.lines().find(|line| line.contains("same-record")).unwrap();
     assert!(line.contains("copy.csv has the samples of log.csv"), "{line}");
     assert!(!selfosc(&folder, &["identify", "log.csv"]).1.contains("same-record"));
+    // The same command with other readings is another record.
+    let csv = std::fs::read_to_string(folder.path().join("log.csv")).unwrap();
+    let moved = csv.lines().map(|line| match line.split(',').collect::<Vec<_>>()[..] {
+        [time, output, input] if output.parse::<f64>().is_ok() => {
+            format!("{time},{},{input}\n", output.parse::<f64>().unwrap() + 1e-6)
+        }
+        _ => format!("{line}\n"),
+    });
+    std::fs::write(folder.path().join("copy.csv"), moved.collect::<String>()).unwrap();
+    assert!(!selfosc(&folder, &["identify", "log.csv", "copy.csv"]).1.contains("same-record"));
 }
 
 /// A heading that passes north is one motion for `autotune` too, in the unit of its log.

@@ -28,7 +28,7 @@ pub(super) struct EnclosedSpectrum {
     /// Upper bound of `sum J^2/(3 pi m)` over the kinks passed in a turn, slope jump J at speed m: `e = sqrt(that delta^3)`.
     kinks: Interval,
     /// Upper bound of `abs(n'')/2` on the range: `e = that delta^2`.
-    curvature: Interval,
+    half_curvature: Interval,
 }
 
 impl EnclosedSpectrum {
@@ -38,7 +38,7 @@ impl EnclosedSpectrum {
     /// delta of it, which a wave of speed m or more passes: `integral of (delta - abs(s))^2 ds/m = 2 delta^3/(3 m)`.
     pub(super) fn remainder(&self, delta: Interval) -> Interval {
         let cube = delta * delta.square();
-        (self.kinks * cube).sqrt() + self.curvature * delta.square()
+        (self.kinks * cube).sqrt() + self.half_curvature * delta.square()
     }
 }
 
@@ -176,7 +176,7 @@ fn between_kinks(
         harmonics,
         rest: variation * Interval::INVERSE_PI / cubes.sqrt(),
         kinks: over_passages(&|at| step * at.jump.square() / (Interval::point(3.0) * Interval::PI * at.speed)),
-        curvature: Interval::ZERO,
+        half_curvature: Interval::ZERO,
     }
 }
 
@@ -216,7 +216,7 @@ fn smooth(characteristic: &OddCharacteristic, wave: &Wave, reach: f64) -> Option
         harmonics,
         rest: strip.rest(last, step),
         kinks: Interval::ZERO,
-        curvature: characteristic.curvature(reach) * Interval::point(0.5),
+        half_curvature: characteristic.half_curvature(reach),
     })
 }
 

@@ -167,7 +167,7 @@ impl PlacedGains<'_> {
     /// The range of bandwidths for which there are gains.
     fn range(&self) -> Result<[f64; 2], ControlError> {
         // No gains are fast beside the longest delay.
-        let longest_s = self.model.ranges().delay_s.upper().max(self.axis.delay_s());
+        let longest_s = self.longest_delay_s();
         // Without delay nothing but the drag's pace limits the range; ten thousand times that is as good as no limit.
         let pace = self.slope.abs() / self.axis.alpha();
         let beyond = if longest_s > 0.0 { 100.0 / longest_s } else { 1e4 * pace.max(1e-4) };
@@ -181,6 +181,11 @@ impl PlacedGains<'_> {
             _ => 1e-3 * most,
         };
         Ok([least * (1.0 + 1e-9), most])
+    }
+
+    /// The longest delay of the intervals and of the axis.
+    fn longest_delay_s(&self) -> f64 {
+        self.model.ranges().delay_s.upper().max(self.axis.delay_s())
     }
 
     /// The largest bandwidth at which the limit is proved for every axis of the intervals.
@@ -200,7 +205,7 @@ impl PlacedGains<'_> {
             let within_reach = self.within_reach(&at, limit);
             return Err(ControlError::OutOfReach { least_rad_s, most_rad_s, within_reach });
         };
-        if first == 0 && self.model.ranges().delay_s.upper().max(self.axis.delay_s()) == 0.0 {
+        if first == 0 && self.longest_delay_s() == 0.0 {
             return Err(ControlError::NothingBounds { kept_rad_s: at[0] });
         }
         let (mut low, mut high) = (at[first], at[first.saturating_sub(1)]);

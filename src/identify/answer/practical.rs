@@ -151,6 +151,13 @@ mod tests {
         assert!(matches!(found, Some(Reason::TooWide { relative }) if (relative - 0.567).abs() < 0.01), "{found:?}");
     }
 
+    /// An interval as wide as the inertia itself shows none: another experiment, or a process without inertia.
+    #[test]
+    fn a_width_of_all_points_to_processes_without_inertia() {
+        assert!(Reason::TooWide { relative: 1.0 }.to_string().contains("selfosc autotune"));
+        assert!(Reason::TooWide { relative: 0.99 }.to_string().starts_with("the inertia is known to within 99 %"));
+    }
+
     /// 3-4-5: twice a half-width of 2 with declared sources of 3.
     #[test]
     fn practical_half_widths_add_in_squares() {

@@ -8,10 +8,6 @@ use crate::orbit::OrbitError;
 use crate::plant::TransferFunction;
 
 const FORMAT: u32 = 1;
-/// What a certificate says.
-const STATEMENT: &str = "Each box of half-periods holds those of an orbit with one switching each way; its extremes are within their bounds; small \
-     deviations from it die out (true), grow (false) or are not decided (null)";
-
 /// Orbits of a loop with their proofs: a reader needs their enclosures only, and no search. The plant's coefficients,
 /// dead time and levels count as exactly the numbers given. It does not exclude orbits that are not listed.
 ///
@@ -117,6 +113,9 @@ crate::numeric::codes! { pub OrbitRefusal {
 impl OrbitCertificate {
     /// Name of this kind of certificate, in its field `certificate`.
     pub const KIND: &str = "two-level-orbits";
+    /// The statement on each orbit.
+    pub const STATEMENT: &str = "Each box of half-periods holds those of an orbit with one switching each way; its extremes are within their \
+         bounds; small deviations from it die out (true), grow (false) or are not decided (null)";
 
     /// Of orbits that [`orbits`](super::orbits) lists. Enclosures are three times as wide as listed: rounding of another arithmetic
     /// fits.
@@ -135,16 +134,10 @@ impl OrbitCertificate {
         Self {
             certificate: Self::KIND.to_owned(),
             format: FORMAT,
-            statement: STATEMENT.to_owned(),
+            statement: Self::STATEMENT.to_owned(),
             numbers: LoopNumbers { num, den, delay_s: plant.delay_s(), high, low, half_width, reference },
             orbits: bounds.collect(),
         }
-    }
-
-    /// The statement on each orbit.
-    #[must_use]
-    pub fn statement(&self) -> &str {
-        &self.statement
     }
 
     /// The number of orbits, all shown anew: existence by Krawczyk's operator on the box, extremes and return map by enclosure.
@@ -155,7 +148,7 @@ impl OrbitCertificate {
         let own = [
             ("kind of certificate", self.certificate == Self::KIND),
             ("format", self.format == FORMAT),
-            ("statement", self.statement == STATEMENT),
+            ("statement", self.statement == Self::STATEMENT),
         ];
         if let Some((field, _)) = own.into_iter().find(|(_, same)| !same) {
             return Err(OrbitRefusal::Foreign { field });

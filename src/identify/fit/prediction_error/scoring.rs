@@ -148,7 +148,7 @@ pub(super) fn climb_beyond(
         if steps > PATIENCE && log_likelihood + OPTIMISM * 0.5 * (gain + noise_gain) < worth {
             break;
         }
-        let moved = |with_structure: bool, with_noise: bool| {
+        let next = |with_structure: bool, with_noise: bool| {
             let mut next = model.clone();
             for (index, step) in structure.iter().zip(&by_structure).filter(|_| with_structure) {
                 let (low, high) = bounds(Parameter::ALL[*index], observations);
@@ -162,14 +162,21 @@ pub(super) fn climb_beyond(
                 next.noise[*index] =
                     (model.noise[*index] + step.clamp(-LARGEST_LOG_STEP, LARGEST_LOG_STEP)).clamp(low, high);
             }
-            let pass = filter::run(observations, &next, filter::Evaluation::Score)?;
-            (pass.log_likelihood > log_likelihood).then_some((next, pass))
+            next
         };
+        let run = |next: &VehicleModel, wanted: filter::Evaluation| {
+            filter::run(observations, next, wanted).filter(|pass| pass.log_likelihood > log_likelihood)
+        };
+        let whole = next(true, true);
         // Far from the maximum the two blocks of the information are not independent: each alone may still gain.
-        let several = noise.len() > 1;
-        let better = moved(true, true)
-            .or_else(|| several.then(|| moved(true, false))?)
-            .or_else(|| several.then(|| moved(false, true))?);
+        let blocks = [(true, false), (false, true)].into_iter().filter(|_| noise.len() > 1);
+        let better = run(&whole, filter::Evaluation::Score).map(|pass| (whole, pass)).or_else(|| {
+            blocks.map(|(with_structure, with_noise)| next(with_structure, with_noise)).find_map(|next| {
+                // Most blocks gain nothing: their likelihood alone is half the work or less.
+                run(&next, filter::Evaluation::Likelihood)?;
+                run(&next, filter::Evaluation::Score).map(|pass| (next, pass))
+            })
+        });
         match better {
             Some((next, better)) => {
                 let gained = better.log_likelihood - log_likelihood;
