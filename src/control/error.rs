@@ -71,7 +71,7 @@ pub enum ControlError {
     },
     /// Nothing bounds the bandwidth of a loop without delay.
     #[error(
-        "at {} rad/s, the largest bandwidth tried, the limit is still met: without a delay nothing bounds the bandwidth; give the delay of \
+        "the limit is met up to {} rad/s, the largest bandwidth tried: without a delay nothing bounds the bandwidth; give the delay of \
          the loop (--delay) or the bandwidth (--bandwidth)", AtMost(*.kept_rad_s)
     )]
     NothingBounds {

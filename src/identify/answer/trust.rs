@@ -65,6 +65,8 @@ pub enum Reason {
     NoExperiment(NotAnExperiment),
     /// The search ended before it came to rest.
     NotSettled,
+    /// The search for terms reached its limit of work: further terms, or others in their place, were not looked for.
+    SearchEnded,
     /// A record that took no part in the estimate is predicted badly.
     DoesNotPredict {
         /// Part of the variance of its output that the answer explains, the least of all such records; `None` where the motion diverges.
@@ -140,6 +142,7 @@ impl Reason {
             Self::TooWide { .. } => "too-wide",
             Self::NoExperiment(_) => "no-experiment",
             Self::NotSettled => "not-settled",
+            Self::SearchEnded => "search-ended",
             Self::DoesNotPredict { .. } => "does-not-predict",
             Self::RecordsDisagree { .. } => "records-disagree",
             Self::ThrustNotProportional { .. } => "thrust-not-proportional",
@@ -200,6 +203,11 @@ impl core::fmt::Display for Reason {
                 f,
                 "the search for the best parameters did not come to rest; leave out the start-up (--from), or give the delay (--delay) \
                  or the drag law (--drag)"
+            ),
+            Self::SearchEnded => write!(
+                f,
+                "the search for terms reached its limit of work, a second of processor time: further terms, or others in their place, were \
+                 not looked for; give a part of the record (--from, --to), or the delay (--delay)"
             ),
             Self::DoesNotPredict { explained } => {
                 match explained {

@@ -137,7 +137,7 @@ fn run_with<const N: usize>(
     let mut innovations = Vec::with_capacity(samples - first);
     let (mut parts, mut slopes) = (Vec::new(), Vec::new());
     let mut part = Score::zero();
-    let mut log_likelihood = 0.0;
+    let (mut log_likelihood, mut all_steps) = (0.0, 0);
     for sample in first..samples {
         let target = observations.time_s[sample];
         loop {
@@ -147,6 +147,7 @@ fn run_with<const N: usize>(
             if span > 0.0 {
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
                 let steps = (span / longest).ceil().clamp(1.0, MOST_SUBSTEPS) as usize;
+                all_steps += steps;
                 let h_s = span / steps as f64;
                 let mut begin = actuator.at(segment, now);
                 for index in 0..steps {
@@ -204,6 +205,7 @@ fn run_with<const N: usize>(
         parts,
         slopes,
         stochastic: filter.stochastic,
+        steps: all_steps,
     })
 }
 

@@ -191,6 +191,9 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
     if !best.settled {
         reasons.push(Reason::NotSettled);
     }
+    if found.ended_early {
+        reasons.push(Reason::SearchEnded);
+    }
     reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
     let trust = reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good);
     let not_negative = |mut estimate: Estimate| {

@@ -15,6 +15,8 @@ pub(super) struct Fitted {
     pub(super) pass: FilterPass,
     /// Whether the search came to rest.
     pub(super) settled: bool,
+    /// Steps of all integrations with derivatives.
+    pub(super) integrated: usize,
 }
 
 /// Steps of one search.
@@ -125,7 +127,7 @@ pub(super) fn climb_beyond(
     let mut pass = filter::run(observations, &model, filter::Evaluation::Score)?;
     let mut damping = LEAST_DAMPING;
     let mut settled = false;
-    let (mut steps, mut rejected) = (0, 0);
+    let (mut steps, mut rejected, mut integrated) = (0, 0, pass.steps);
     while steps < most_steps {
         steps += 1;
         let (score, log_likelihood) = (pass.score(), pass.log_likelihood);
@@ -164,8 +166,10 @@ pub(super) fn climb_beyond(
             }
             next
         };
-        let run = |next: &VehicleModel, wanted: filter::Evaluation| {
-            filter::run(observations, next, wanted).filter(|pass| pass.log_likelihood > log_likelihood)
+        let mut run = |next: &VehicleModel, wanted: filter::Evaluation| {
+            let pass = filter::run(observations, next, wanted)?;
+            integrated += if wanted == filter::Evaluation::Score { pass.steps } else { 0 };
+            (pass.log_likelihood > log_likelihood).then_some(pass)
         };
         let whole = next(true, true);
         // Far from the maximum the two blocks of the information are not independent: each alone may still gain.
@@ -207,7 +211,7 @@ pub(super) fn climb_beyond(
         let promised = solve(&score.structure_information, &score.structure, &structure, LEAST_DAMPING);
         settled = promised.is_some_and(|(_, gain)| gain < NEARLY_SETTLED);
     }
-    Some(Fitted { log_likelihood: pass.log_likelihood, score: pass.score(), pass, model, settled })
+    Some(Fitted { log_likelihood: pass.log_likelihood, score: pass.score(), pass, model, settled, integrated })
 }
 
 /// Numbers of the structural parameters that may move: not those on a bound that the gradient points beyond.

@@ -6,6 +6,7 @@
 mod gaps;
 
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
@@ -50,6 +51,8 @@ const WORTH_FOLLOWING: f64 = 0.1;
 /// Samples of a longer record in which terms are looked for, and how many of the models found there are fitted to all of it.
 pub(super) const LONGEST_SEARCHED: usize = 4000;
 const CONTINUED: usize = 3;
+/// Steps of integrations with derivatives, after which no further round of the search begins: a second of processor time.
+const MOST_INTEGRATED: usize = 3_000_000;
 /// How often instants of switching in gaps are looked for at most.
 const MOST_READINGS: usize = 3;
 /// Steps while a white force carries a poor start along, and those that follow without it.
@@ -83,6 +86,8 @@ pub(super) struct StructureSearch<'a> {
     clocks: Vec<Clock>,
     readings: [OnceLock<Observations>; 4],
     unseen_s: f64,
+    integrated: AtomicUsize,
+    ended_early: AtomicBool,
 }
 
 /// What the search found.
@@ -91,6 +96,8 @@ pub(super) struct SearchOutcome {
     pub(super) tried: Vec<Fitted>,
     /// Number of the best of them.
     pub(super) best: usize,
+    /// Whether further rounds were left out for the work that they take.
+    pub(super) ended_early: bool,
 }
 
 impl<'a> StructureSearch<'a> {
@@ -98,7 +105,16 @@ impl<'a> StructureSearch<'a> {
         let clocks = if grid(record).is_some() { vec![Clock::Stamps, Clock::Grid] } else { vec![Clock::Stamps] };
         let head = record.beginning(LONGEST_SEARCHED);
         let readings = [const { OnceLock::new() }; 4];
-        Self { record, head, known, clocks, readings, unseen_s: 0.0 }
+        Self {
+            record,
+            head,
+            known,
+            clocks,
+            readings,
+            unseen_s: 0.0,
+            integrated: AtomicUsize::new(0),
+            ended_early: AtomicBool::new(false),
+        }
     }
 
     pub(super) fn observations(&self, model: &VehicleModel) -> &Observations {
@@ -115,7 +131,20 @@ impl<'a> StructureSearch<'a> {
     }
 
     fn climb(&self, model: VehicleModel) -> Option<Fitted> {
-        climb(self.observations(&model), model)
+        self.climb_beyond(model, f64::NEG_INFINITY)
+    }
+
+    fn climb_beyond(&self, model: VehicleModel, worth: f64) -> Option<Fitted> {
+        let fitted = climb_beyond(self.observations(&model), model, MOST_STEPS, worth)?;
+        self.integrated.fetch_add(fitted.integrated, Ordering::Relaxed);
+        Some(fitted)
+    }
+
+    /// Whether a further round of the search may begin. The sum over parallel climbs does not depend on their order.
+    fn goes_on(&self) -> bool {
+        let goes_on = self.integrated.load(Ordering::Relaxed) < MOST_INTEGRATED;
+        self.ended_early.fetch_or(!goes_on, Ordering::Relaxed);
+        goes_on
     }
 
     /// The likeliest of several starts, climbed from.
@@ -125,7 +154,7 @@ impl<'a> StructureSearch<'a> {
         };
         let valued = starts.into_iter().filter_map(|model| Some((value(&model)?, model)));
         let (_, best) = valued.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        climb_beyond(self.observations(&best), best, MOST_STEPS, worth)
+        self.climb_beyond(best, worth)
     }
 
     /// From each start a model that follows the record by a white force of free intensity, then one without it; the likeliest.
@@ -176,6 +205,7 @@ impl<'a> StructureSearch<'a> {
         let (search, mut found) = StructureSearch::new(self.head.as_ref()?, self.known).run()?;
         found.tried.sort_by(|a, b| search.value(b).total_cmp(&search.value(a)));
         self.unseen_s = search.unseen_s;
+        self.ended_early = AtomicBool::new(found.ended_early);
         let mut models: Vec<VehicleModel> = Vec::new();
         for Fitted { model, .. } in found.tried {
             let same = |other: &VehicleModel| {
@@ -219,7 +249,7 @@ impl<'a> StructureSearch<'a> {
         }
         let mut found = self.search(begin.clone());
         for _ in 0..MOST_READINGS {
-            if !self.read_gaps(&found.tried) {
+            if !self.goes_on() || !self.read_gaps(&found.tried) {
                 break;
             }
             found = self.search(self.again(&begin)?);
@@ -246,7 +276,7 @@ impl<'a> StructureSearch<'a> {
         let others = self.other_laws(&tried, &tried[best].model);
         tried.extend(others.into_par_iter().filter_map(|model| self.climb(model)).collect::<Vec<_>>());
         best = self.best(&tried);
-        SearchOutcome { tried, best }
+        SearchOutcome { tried, best, ended_early: self.ended_early.load(Ordering::Relaxed) }
     }
 
     /// Terms join, confounded lags replace each other; returns the number of the best model.
@@ -264,7 +294,7 @@ impl<'a> StructureSearch<'a> {
         let alone = tried.iter().enumerate().filter(|(_, fitted)| structural(fitted) && fitted.log_likelihood > worth);
         let alone = alone.filter(|(_, fitted)| fitted.model.freedom() > first);
         let alone = alone.max_by(|a, b| a.1.log_likelihood.total_cmp(&b.1.log_likelihood)).map(|(index, _)| index);
-        if let Some(alone) = alone.filter(|_| noisy) {
+        if let Some(alone) = alone.filter(|_| noisy && self.goes_on()) {
             let grown = self.grow(tried, alone, Term::is_structural);
             self.grow(tried, grown, |_| true);
             best = self.best(tried);
@@ -277,15 +307,15 @@ impl<'a> StructureSearch<'a> {
         let current = tried[from].clone();
         let switched = self.observations(&current.model).switched;
         let mut others = confounded_lags::chains(&current.model, self.known.delay_s, switched);
-        others.retain(|model| !tried.iter().any(|fitted| fitted.model.is_alike(model)));
-        let worth = current.log_likelihood - COUNTING;
-        let ends: Vec<Fitted> = others
-            .into_par_iter()
-            .filter_map(|model| climb_beyond(self.observations(&model), model, MOST_STEPS, worth))
-            .collect();
-        tried.extend(ends);
-        if self.known.delay_s.is_none() && confounded_lags::is_in(&current.model) {
-            tried.extend(self.restarted_lags(&current.model));
+        if !others.is_empty() && self.goes_on() {
+            others.retain(|model| !tried.iter().any(|fitted| fitted.model.is_alike(model)));
+            let worth = current.log_likelihood - COUNTING;
+            let ends: Vec<Fitted> =
+                others.into_par_iter().filter_map(|model| self.climb_beyond(model, worth)).collect();
+            tried.extend(ends);
+            if self.known.delay_s.is_none() && confounded_lags::is_in(&current.model) {
+                tried.extend(self.restarted_lags(&current.model));
+            }
         }
         let best = self.best(tried);
         if best == from { from } else { self.grow(tried, best, |_| true) }
@@ -321,6 +351,9 @@ impl<'a> StructureSearch<'a> {
     fn grow(&self, tried: &mut Vec<Fitted>, from: usize, admitted: impl Fn(Term) -> bool) -> usize {
         let mut best = from;
         for _ in 0..MOST_TERMS {
+            if !self.goes_on() {
+                break;
+            }
             let current = tried[best].clone();
             let ends: Vec<(Fitted, f64)> = self
                 .moves(&current.model, &admitted)

@@ -82,6 +82,8 @@ pub(crate) struct FilterPass {
     pub(crate) slopes: Vec<[f64; STRUCTURE]>,
     /// Whether predictions follow the readings before them, or the motion alone.
     pub(crate) stochastic: bool,
+    /// Steps of the integration.
+    pub(crate) steps: usize,
 }
 
 impl FilterPass {
