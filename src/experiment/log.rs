@@ -11,8 +11,7 @@ use super::{ExperimentError, Place, Record};
 use crate::files::{LONGEST_WORD, cut};
 
 /// Names tried for each column, best first, as a message lists them.
-const TIME: &str =
-    "time_s, time, t, timestamp, time_ms, time_us, time_ns, time_min, time_h, timestamp_s, timestamp_ms, timestamp_us, timestamp_ns";
+const TIME: &str = "time_s, time, t, timestamp, time_ms, time_us, time_ns, time_min, time_h, timestamp_s, timestamp_ms, timestamp_us, timestamp_ns";
 const OUTPUT: &str = "heading_deg, yaw_deg, heading, yaw, depth_m, position_m, position, output, y, depth, temperature";
 const INPUT: &str = "command, input, u, pwm, duty";
 /// The same where a controller's output is the command.

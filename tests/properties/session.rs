@@ -61,7 +61,12 @@ fn what_an_identification_holds_comes_back() {
     comes_back::<Reported>(reported);
     comes_back::<Vec<Model>>(&found.models().to_vec());
     let relative = f64::INFINITY;
-    comes_back::<Vec<Reason>>(&vec![Reason::TooWide { relative }, Reason::Term(Term::Lag), Reason::NotSettled]);
+    comes_back::<Vec<Reason>>(&vec![
+        Reason::TooWide { relative },
+        Reason::Term(Term::Lag),
+        Reason::NotSettled,
+        Reason::SearchEnded { joining: true },
+    ]);
     comes_back::<Choice>(found.fits().unwrap());
     comes_back::<RecordFit>(found.likeliest_fit().unwrap());
     comes_back::<Log>(&found.sources()[0].log);

@@ -65,8 +65,11 @@ pub enum Reason {
     NoExperiment(NotAnExperiment),
     /// The search ended before it came to rest.
     NotSettled,
-    /// The search for terms reached its limit of work: further terms, or others in their place, were not looked for.
-    SearchEnded,
+    /// The search for terms reached its limit of work.
+    SearchEnded {
+        /// Terms still joined: further terms were not looked for. Else other models in place of the model found were not.
+        joining: bool,
+    },
     /// A record that took no part in the estimate is predicted badly.
     DoesNotPredict {
         /// Part of the variance of its output that the answer explains, the least of all such records; `None` where the motion diverges.
@@ -142,7 +145,7 @@ impl Reason {
             Self::TooWide { .. } => "too-wide",
             Self::NoExperiment(_) => "no-experiment",
             Self::NotSettled => "not-settled",
-            Self::SearchEnded => "search-ended",
+            Self::SearchEnded { .. } => "search-ended",
             Self::DoesNotPredict { .. } => "does-not-predict",
             Self::RecordsDisagree { .. } => "records-disagree",
             Self::ThrustNotProportional { .. } => "thrust-not-proportional",
@@ -156,7 +159,10 @@ impl Reason {
     #[must_use]
     pub fn trust(self) -> Trust {
         match self {
-            Self::TooWide { .. } | Self::NotSettled | Self::DoesNotPredict { .. } => Trust::Doubtful,
+            Self::TooWide { .. }
+            | Self::NotSettled
+            | Self::SearchEnded { joining: true }
+            | Self::DoesNotPredict { .. } => Trust::Doubtful,
             // A command of any shape separates the parameters if it moves the vehicle for two cycles.
             Self::NoExperiment(NotAnExperiment::NotHeld { .. }) => Trust::Widened,
             Self::NoExperiment(_) => Trust::Doubtful,
@@ -204,10 +210,11 @@ impl core::fmt::Display for Reason {
                 "the search for the best parameters did not come to rest; leave out the start-up (--from), or give the delay (--delay) \
                  or the drag law (--drag)"
             ),
-            Self::SearchEnded => write!(
+            Self::SearchEnded { joining } => write!(
                 f,
-                "the search for terms reached its limit of work, a second of processor time: further terms, or others in their place, were \
-                 not looked for; give a part of the record (--from, --to), or the delay (--delay)"
+                "the search for terms reached its limit of work, about a second of processor time: {} were not looked for; give a part of \
+                 the record (--from, --to), or the delay (--delay)",
+                if joining { "further terms" } else { "other terms in place of those found" }
             ),
             Self::DoesNotPredict { explained } => {
                 match explained {

@@ -54,7 +54,7 @@ use crate::numeric::{Limit, domain};
 use average::{Average, CHOSEN};
 use observations::Observations;
 use scoring::Fitted;
-use structure_search::{KnownBefore, SearchOutcome, StructureSearch};
+use structure_search::{KnownBefore, LeftOut, SearchOutcome, StructureSearch};
 
 /// Parameters to estimate, and given values.
 ///
@@ -191,8 +191,8 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
     if !best.settled {
         reasons.push(Reason::NotSettled);
     }
-    if found.ended_early {
-        reasons.push(Reason::SearchEnded);
+    if found.left_out > LeftOut::Nothing {
+        reasons.push(Reason::SearchEnded { joining: found.left_out == LeftOut::Terms });
     }
     reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
     let trust = reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good);

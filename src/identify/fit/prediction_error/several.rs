@@ -143,7 +143,8 @@ impl Several {
         let mut reasons: Vec<Reason> = Vec::new();
         for reason in answers.iter().flat_map(|answer| &answer.reported.reasons) {
             let of_one = matches!(reason, Reason::TooWide { .. });
-            if !of_one && !reasons.iter().any(|other| other.code() == reason.code()) {
+            let known = |other: &Reason| (other.code(), other.trust()) == (reason.code(), reason.trust());
+            if !of_one && !reasons.iter().any(known) {
                 reasons.push(*reason);
             }
         }

@@ -51,8 +51,8 @@ const WORTH_FOLLOWING: f64 = 0.1;
 /// Samples of a longer record in which terms are looked for, and how many of the models found there are fitted to all of it.
 pub(super) const LONGEST_SEARCHED: usize = 4000;
 const CONTINUED: usize = 3;
-/// Steps of integrations with derivatives, after which no further round of the search begins: a second of processor time.
-const MOST_INTEGRATED: usize = 3_000_000;
+/// Steps of integrations with derivatives, after which no further round of the search begins: about a second of processor time.
+const MOST_INTEGRATED: usize = 2_000_000;
 /// How often instants of switching in gaps are looked for at most.
 const MOST_READINGS: usize = 3;
 /// Steps while a white force carries a poor start along, and those that follow without it.
@@ -88,6 +88,8 @@ pub(super) struct StructureSearch<'a> {
     unseen_s: f64,
     integrated: AtomicUsize,
     ended_early: AtomicBool,
+    /// By the search in the first part of a long record.
+    left_out: LeftOut,
 }
 
 /// What the search found.
@@ -96,8 +98,19 @@ pub(super) struct SearchOutcome {
     pub(super) tried: Vec<Fitted>,
     /// Number of the best of them.
     pub(super) best: usize,
-    /// Whether further rounds were left out for the work that they take.
-    pub(super) ended_early: bool,
+    /// What was left out for the work that it takes.
+    pub(super) left_out: LeftOut,
+}
+
+/// Part of a search that its limit of work leaves out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum LeftOut {
+    /// None.
+    Nothing,
+    /// Other models in place of a model to which no term is worth adding.
+    Alternatives,
+    /// Terms after others that joined.
+    Terms,
 }
 
 impl<'a> StructureSearch<'a> {
@@ -114,6 +127,7 @@ impl<'a> StructureSearch<'a> {
             unseen_s: 0.0,
             integrated: AtomicUsize::new(0),
             ended_early: AtomicBool::new(false),
+            left_out: LeftOut::Nothing,
         }
     }
 
@@ -205,7 +219,7 @@ impl<'a> StructureSearch<'a> {
         let (search, mut found) = StructureSearch::new(self.head.as_ref()?, self.known).run()?;
         found.tried.sort_by(|a, b| search.value(b).total_cmp(&search.value(a)));
         self.unseen_s = search.unseen_s;
-        self.ended_early = AtomicBool::new(found.ended_early);
+        self.left_out = found.left_out;
         let mut models: Vec<VehicleModel> = Vec::new();
         for Fitted { model, .. } in found.tried {
             let same = |other: &VehicleModel| {
@@ -259,7 +273,7 @@ impl<'a> StructureSearch<'a> {
 
     /// From models that are fitted: terms join unless the record is long, and unneeded terms leave.
     fn search(&self, mut tried: Vec<Fitted>) -> SearchOutcome {
-        let mut best = if self.is_long() { self.best(&tried) } else { self.joined(&mut tried) };
+        let (mut best, complete) = if self.is_long() { (self.best(&tried), true) } else { self.joined(&mut tried) };
         // Leave out what is no longer needed, drag terms too.
         loop {
             let current = tried[best].clone();
@@ -276,14 +290,20 @@ impl<'a> StructureSearch<'a> {
         let others = self.other_laws(&tried, &tried[best].model);
         tried.extend(others.into_par_iter().filter_map(|model| self.climb(model)).collect::<Vec<_>>());
         best = self.best(&tried);
-        SearchOutcome { tried, best, ended_early: self.ended_early.load(Ordering::Relaxed) }
+        let left_out = match (complete, self.ended_early.load(Ordering::Relaxed)) {
+            (false, _) => LeftOut::Terms,
+            (true, true) => LeftOut::Alternatives,
+            (true, false) => self.left_out,
+        };
+        SearchOutcome { tried, best, left_out }
     }
 
-    /// Terms join, confounded lags replace each other; returns the number of the best model.
-    fn joined(&self, tried: &mut Vec<Fitted>) -> usize {
+    /// Terms join, confounded lags replace each other; returns the number of the best model, and whether every term was tried on the model
+    /// from which terms no longer joined.
+    fn joined(&self, tried: &mut Vec<Fitted>) -> (usize, bool) {
         let start = self.best(tried);
         // Noise and process force can hide a structure: where they come first, the structure alone is tried too.
-        let mut best = self.grow(tried, start, |_| true);
+        let (mut best, complete) = self.grow(tried, start, |_| true);
         let first = tried[start].model.freedom();
         let structural = |fitted: &Fitted| {
             let has = |term: &Term| term.is_in(&fitted.model) && (*term != Term::Delay || self.known.delay_s.is_some());
@@ -295,11 +315,11 @@ impl<'a> StructureSearch<'a> {
         let alone = alone.filter(|(_, fitted)| fitted.model.freedom() > first);
         let alone = alone.max_by(|a, b| a.1.log_likelihood.total_cmp(&b.1.log_likelihood)).map(|(index, _)| index);
         if let Some(alone) = alone.filter(|_| noisy && self.goes_on()) {
-            let grown = self.grow(tried, alone, Term::is_structural);
+            let (grown, _) = self.grow(tried, alone, Term::is_structural);
             self.grow(tried, grown, |_| true);
             best = self.best(tried);
         }
-        self.confounded_otherwise(tried, best)
+        (self.confounded_otherwise(tried, best), complete)
     }
 
     /// Replaces the confounded lags by each other; returns the number of the best model.
@@ -318,7 +338,7 @@ impl<'a> StructureSearch<'a> {
             }
         }
         let best = self.best(tried);
-        if best == from { from } else { self.grow(tried, best, |_| true) }
+        if best == from { from } else { self.grow(tried, best, |_| true).0 }
     }
 
     /// Restarts each lag-like term from least squares over a grid of delays: inertia and total lag are nearly confounded, and a poor
@@ -347,12 +367,12 @@ impl<'a> StructureSearch<'a> {
         others.into_iter().filter(|model| !tried.iter().any(|fitted| fitted.model.is_alike(model))).collect()
     }
 
-    /// The best term joins, time and again; returns the number of the last model.
-    fn grow(&self, tried: &mut Vec<Fitted>, from: usize, admitted: impl Fn(Term) -> bool) -> usize {
+    /// The best term joins, time and again; returns the number of the last model, and whether the limit of work allowed all of that.
+    fn grow(&self, tried: &mut Vec<Fitted>, from: usize, admitted: impl Fn(Term) -> bool) -> (usize, bool) {
         let mut best = from;
         for _ in 0..MOST_TERMS {
             if !self.goes_on() {
-                break;
+                return (best, false);
             }
             let current = tried[best].clone();
             let ends: Vec<(Fitted, f64)> = self
@@ -375,7 +395,7 @@ impl<'a> StructureSearch<'a> {
                 None => break,
             }
         }
-        best
+        (best, true)
     }
 
     /// Starts of the models one step from a model, with the number of parameters that the step adds.

@@ -329,7 +329,7 @@ fn estimates_of_rounded_readings_scatter_as_said() {
         let mut model = model.clone();
         model.set_noise(NoiseParameter::White, step * step / 12.0, true);
         let pass = filter::run(&rounded, &model, Evaluation::Score).expect("a pass");
-        let fitted = Fitted { log_likelihood: 0.0, score: pass.score(), pass, model, settled: true };
+        let fitted = Fitted { log_likelihood: 0.0, score: pass.score(), pass, model, settled: true, integrated: 0 };
         let free: Vec<usize> = structure.iter().map(|parameter| *parameter as usize).collect();
         let factors = rounding::factors(&fitted, &rounded, &free).expect("rounded readings");
         for (place, parameter) in structure.iter().enumerate() {
@@ -344,6 +344,6 @@ fn estimates_of_rounded_readings_scatter_as_said() {
     assert!(narrower > 0 && wider > 0, "{narrower} cancel, {wider} add up");
     observations.step = None;
     let pass = filter::run(&observations, &model, Evaluation::Score).expect("a pass");
-    let fitted = Fitted { log_likelihood: 0.0, score: pass.score(), pass, model, settled: true };
+    let fitted = Fitted { log_likelihood: 0.0, score: pass.score(), pass, model, settled: true, integrated: 0 };
     assert!(rounding::factors(&fitted, &observations, &[0]).is_none());
 }
