@@ -48,6 +48,22 @@ fn of_seeds(kind: &str, seeds: impl IntoIterator<Item = u64>) -> (u64, u64, Vec<
     (right, missed, answers)
 }
 
+/// A search that would take longer says what it left out: terms after others that joined, without which the answer is doubtful, or others
+/// in place of terms to which nothing is worth adding.
+#[test]
+fn a_search_that_would_take_long_says_what_it_left_out() {
+    let (_, _, answers) = of_seeds("random-walk force 0.05", [1, 2, 12]);
+    let ended = |reported: &Reported| {
+        reported.reasons.iter().find_map(|reason| match reason {
+            Reason::SearchEnded { joining } => Some(*joining),
+            _ => None,
+        })
+    };
+    assert_eq!(answers.iter().map(ended).collect::<Vec<_>>(), [Some(true), Some(false), None]);
+    let trust: Vec<Trust> = answers.iter().map(|reported| reported.trust).collect();
+    assert_eq!(trust, [Trust::Doubtful, Trust::Widened, Trust::Widened]);
+}
+
 /// Few cases of kinds that once were wrong by many half-widths without a word; the long run is in `spec/trust.md`.
 #[test]
 fn trusted_answers_hold_on_imperfect_vehicles() {
