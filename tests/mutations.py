@@ -18,7 +18,7 @@ SECONDS = 300
 
 # Topic: the tests that have to notice, of the library itself and of `tests/properties`.
 TOPICS = {
-    "arithmetic": [("lib", ["numeric::"]), ("properties", ["interval::", "conformance::", "engine::large", "certificate::"])],
+    "arithmetic": [("lib", ["numeric::"]), ("properties", ["numeric::", "interval::", "conformance::", "engine::large", "certificate::"])],
     "jets": [("lib", ["numeric::"]), ("properties", ["certificate::", "engine::", "interval::"])],
     "engine": [("lib", ["proof::", "claims::checks::step"]), ("properties", ["engine::", "certificate::"])],
     "formulas": [("lib", ["proof::", "claims::checks"])],
