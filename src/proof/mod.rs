@@ -48,4 +48,4 @@ pub type Gradient<const N: usize> = crate::numeric::Gradient<crate::numeric::Int
 pub use margin::formula;
 #[cfg(feature = "std")]
 pub use outcome::{Bound, Extent, NotProved, Proved};
-pub use statement::{Change, Statement, Unchanged};
+pub use statement::{Change, Unchanged};

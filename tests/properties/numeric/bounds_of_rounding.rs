@@ -1,6 +1,7 @@
 //! The bounds against floats: every operation on random boxes, and an arithmetic that forgets most of its rounding.
 
-use crate::numeric::rounded::{Double, Format, Rounded, Single, Units};
+use crate::numeric::rounded::format::Units;
+use crate::numeric::rounded::{Double, Format, Rounded, Single};
 use crate::numeric::{Interval, Real};
 
 /// Every operation, of numbers near one; steep places and branches within.

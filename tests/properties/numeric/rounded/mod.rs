@@ -14,7 +14,7 @@
 //! | `testing` | a formula's proved bounds against 42 digits |
 #![allow(dead_code, reason = "either crate uses its part")]
 
-mod format;
+pub(crate) mod format;
 mod functions;
 pub(crate) mod order;
 pub(crate) mod testing;
@@ -22,7 +22,7 @@ pub(crate) mod testing;
 use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-pub(crate) use format::{Double, Format, Single, Units};
+pub(crate) use format::{Double, Format, Single};
 
 use crate::numeric::{Interval, Real};
 
