@@ -80,15 +80,6 @@ impl Balls {
         Self { middle: [self.middle[place]; Self::COUNT], radius: [self.radius[place]; Self::COUNT] }
     }
 
-    #[inline]
-    fn interval(middle: f64, radius: f64) -> Interval {
-        // A ball that is not finite encloses nothing useful: the entire line.
-        if !(middle.is_finite() && radius.is_finite()) {
-            return Interval::ENTIRE;
-        }
-        Interval::point(middle) + Interval::symmetric(radius)
-    }
-
     /// As intervals.
     #[inline]
     pub(crate) fn intervals(self) -> [Interval; Self::COUNT] {
@@ -98,7 +89,13 @@ impl Balls {
     /// One of them.
     #[inline]
     pub(crate) fn interval_at(self, place: usize) -> Interval {
-        Self::interval(self.middle[place], self.radius[place])
+        let (middle, radius) = (self.middle[place], self.radius[place]);
+        // A ball that is not finite encloses nothing useful: the entire line.
+        if middle.is_finite() && radius.is_finite() {
+            Interval::point(middle) + Interval::symmetric(radius)
+        } else {
+            Interval::ENTIRE
+        }
     }
 
     /// Everything within these sizes.
