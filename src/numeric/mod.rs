@@ -5,8 +5,6 @@ mod balls;
 mod bessel;
 mod complex;
 pub(crate) mod domain;
-#[cfg(feature = "std")]
-mod expression;
 mod gradient;
 mod interval;
 mod jet;
@@ -48,12 +46,11 @@ pub(crate) use complex::Complex;
 pub(crate) use domain::codes;
 pub use domain::{Limit, OutOfDomain};
 pub use interval::Interval;
+pub(crate) use real::operators;
 pub use real::{Real, Scalar};
 pub use special::Special;
 
 internal! {
-    #[cfg(feature = "std")]
-    use expression::{Expression};
     use gradient::{Component, Gradient};
     use jet::{Jet};
     use minimum::{golden_section};

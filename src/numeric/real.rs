@@ -6,7 +6,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 /// Implements operators of a type, each by a formula of its operands.
 macro_rules! operators {
     ($type:tt $($trait:ident::$method:ident = |$a:ident $(, $b:ident)?| $formula:expr;)+) => {
-        $( $crate::numeric::real::operators!(@ $type $trait $method |$a $(, $b)?| $formula); )+
+        $( $crate::numeric::operators!(@ $type $trait $method |$a $(, $b)?| $formula); )+
     };
     (@ [$(#[$attribute:meta])* $type:ty $(, $($generics:tt)+)?] $trait:ident $method:ident |$a:ident $(, $b:ident)?| $formula:expr) => {
         impl $(<$($generics)+>)? core::ops::$trait for $type {
@@ -19,7 +19,7 @@ macro_rules! operators {
         }
     };
 }
-pub(super) use operators;
+pub(crate) use operators;
 
 /// A number a formula of this crate can be written over: f32, f64, dual numbers, intervals.
 ///

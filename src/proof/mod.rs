@@ -4,6 +4,8 @@
 pub mod branch_and_bound;
 pub mod enclosure;
 #[cfg(feature = "std")]
+mod expression;
+#[cfg(feature = "std")]
 pub mod identity;
 #[cfg(feature = "std")]
 pub mod inequality;
@@ -44,6 +46,8 @@ pub(crate) use document;
 /// Enclosures of a value and its partial derivatives over a box: rigorous Jacobians from the formulas themselves.
 pub type Gradient<const N: usize> = crate::numeric::Gradient<crate::numeric::Interval, N>;
 
+#[cfg(feature = "std")]
+pub use expression::Expression;
 #[cfg(feature = "std")]
 pub use margin::formula;
 #[cfg(feature = "std")]

@@ -3,8 +3,7 @@
 use core::ops::{Add, Div, Mul};
 
 use super::{Expression, Node, Product};
-use crate::numeric::Real;
-use crate::numeric::real::operators;
+use crate::numeric::{Real, operators};
 
 impl Expression {
     fn product(self) -> Product {
