@@ -208,7 +208,11 @@ impl<const N: usize> Scalar for Gradient<f64, N> {
 }
 
 operators! {
-    [#[inline] Gradient<T, N>, T: Component, const N: usize]
+    [
+        #[inline]
+        #[allow(clippy::suspicious_arithmetic_impl, reason = "the rules of products and quotients")]
+        Gradient<T, N>, T: Component, const N: usize
+    ]
     Neg::neg = |x| x.chain(-x.value, -T::one());
     Add::add = |x, y| x.combine(y, x.value + y.value, |dx, dy| dx + dy);
     Sub::sub = |x, y| x.combine(y, x.value - y.value, |dx, dy| dx - dy);
