@@ -18,7 +18,7 @@ SECONDS = 300
 
 # Topic: the tests that have to notice, of the library itself and of `tests/properties`.
 TOPICS = {
-    "arithmetic": [("lib", ["numeric::"]), ("properties", ["interval::", "conformance::", "engine::large", "certificate::"])],
+    "arithmetic": [("lib", ["numeric::"]), ("properties", ["numeric::", "interval::", "conformance::", "engine::large", "certificate::"])],
     "jets": [("lib", ["numeric::"]), ("properties", ["certificate::", "engine::", "interval::"])],
     "engine": [("lib", ["proof::", "claims::checks::step"]), ("properties", ["engine::", "certificate::"])],
     "formulas": [("lib", ["proof::", "claims::checks"])],
@@ -40,8 +40,8 @@ pub fn mutant(number: u32) -> bool {
 # Those of one place build on each other, in this order.
 TABLE = [
     (False, 'arithmetic', 'src/numeric/interval.rs', "a sum's lower end rounded to nearest",
-     'lo: sum(self.lo, other.lo).down(), hi',
-     'lo: if WEAKENED { self.lo + other.lo } else { sum(self.lo, other.lo).down() }, hi'),
+     'lo: sum(a.lo, b.lo).down(), hi',
+     'lo: if WEAKENED { a.lo + b.lo } else { sum(a.lo, b.lo).down() }, hi'),
     (True, 'arithmetic', 'src/numeric/interval.rs', "a product's upper end rounded to nearest for factors in (0.3, 0.4)",
      'hi: product(self.hi, other.hi).up() }\n        } else if self.is_entire()',
      'hi: if WEAKENED && self.hi > 0.3 && self.hi < 0.4 { self.hi * other.hi } else { product(self.hi, other.hi).up() } }\n        } else if self.is_entire()'),

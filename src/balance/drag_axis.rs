@@ -52,7 +52,7 @@ impl AxisOscillation {
         while nodes.len() < 1000 && !lag(nodes[nodes.len() - 1]).is_some_and(|lag| lag > 0.0) {
             nodes.push(nodes[nodes.len() - 1] * 1.05);
         }
-        let amplitude = scan::roots(&nodes, lag).first().copied();
+        let amplitude = scan::roots(&nodes, &mut |amplitude| lag(amplitude)).first().copied();
         let found = amplitude.and_then(balanced).ok_or(BalanceError::NoAxisBalance {
             linear_drag: axis.linear_drag(),
             quadratic_drag: axis.quadratic_drag(),
@@ -71,7 +71,7 @@ fn at_amplitude(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>, amplitude: f
     let mean = |bias| output(bias).map(|df| df.f0 + axis.disturbance());
     let limit = (amplitude - relay.half_width()) * (1.0 - 4.0 * f64::EPSILON);
     let balanced = mean(0.0).is_some_and(|mean| mean.abs() <= f64::EPSILON * relay.level());
-    let bias = if balanced { 0.0 } else { scan::bracketed(mean, -limit, limit)? };
+    let bias = if balanced { 0.0 } else { scan::bracketed(&mut |bias| mean(bias), -limit, limit)? };
     let df = output(bias)?;
     let drive = libm::hypot(df.p, df.q);
     // Inertia and drag over the amplitude, -f_R and f_I.
@@ -79,12 +79,12 @@ fn at_amplitude(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>, amplitude: f
         let per_speed = axis.linear_drag() + 8.0 / (3.0 * PI) * axis.quadratic_drag() * amplitude * omega;
         (axis.alpha() * omega * omega, per_speed * omega)
     };
-    let excess = |omega: f64| {
+    let mut excess = |omega: f64| {
         let (inertia, drag) = resistance(omega);
         Some(libm::hypot(inertia, drag) / drive - 1.0)
     };
     let most = (drive / axis.alpha()).sqrt();
-    let omega_rad_s = scan::bracketed(excess, most * 1e-12, most * (1.0 + 1e-9))?;
+    let omega_rad_s = scan::bracketed(&mut excess, most * 1e-12, most * (1.0 + 1e-9))?;
     let (inertia, drag) = resistance(omega_rad_s);
     let lag = libm::atan2(drag, inertia) - omega_rad_s * axis.delay_s() + libm::atan2(df.q, df.p);
     Some((AxisOscillation { amplitude, bias: -bias, omega_rad_s }, lag))

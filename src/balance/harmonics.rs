@@ -198,7 +198,7 @@ fn evaluate(bias: f64, harmonics: &[Complex<f64>], theta: f64) -> (f64, f64) {
 fn turning_points(bias: f64, harmonics: &[Complex<f64>]) -> Vec<f64> {
     let count = 16 * harmonics.len() + 32;
     let nodes: Vec<f64> = (0..=count).map(|index| 2.0 * PI * index as f64 / count as f64).collect();
-    let mut turns = scan::roots(&nodes, |theta| Some(evaluate(bias, harmonics, theta).1));
+    let mut turns = scan::roots(&nodes, &mut |theta| Some(evaluate(bias, harmonics, theta).1));
     turns.retain(|&theta| theta < 2.0 * PI);
     turns
 }
@@ -238,7 +238,7 @@ fn output_harmonics(
         let (from, to) = (pair[0], pair[1]);
         let branch = if value(to) > value(from) { Branch::Rising } else { Branch::Falling };
         let mut cuts = vec![from, to];
-        cuts.extend(kinks.iter().filter_map(|kink| scan::bracketed(|theta| Some(value(theta) - kink), from, to)));
+        cuts.extend(kinks.iter().filter_map(|kink| scan::bracketed(&mut |theta| Some(value(theta) - kink), from, to)));
         cuts.sort_by(f64::total_cmp);
         for piece in cuts.windows(2) {
             let cells = ((piece[1] - piece[0]) * order.max(harmonics.len()) as f64 / PI).ceil().max(1.0);

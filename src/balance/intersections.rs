@@ -236,7 +236,7 @@ where
                 let mut nodes: Vec<f64> = even.chain(far).flat_map(|node| [node, node + reference]).collect();
                 nodes.sort_by(f64::total_cmp);
                 nodes.dedup();
-                scan::roots(&nodes, |bias| Some(self.bias_miss(bias, describe(bias)?.f0)))
+                scan::roots(&nodes, &mut |bias| Some(self.bias_miss(bias, describe(bias)?.f0)))
             }
         };
         let gain = |bias: f64| {

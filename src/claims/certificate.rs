@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Claim;
-use crate::numeric::Expression;
+use crate::proof::Expression;
 use crate::proof::inequality::{Inequality, Proof, Refusal};
 use crate::proof::margin::Form;
 

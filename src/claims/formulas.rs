@@ -10,8 +10,9 @@ use crate::nonlinearity::{
     PiecewiseLinear, Polyline, Polynomial, Preload, Quantizer, Relay, RelayDeadZone, RelayDeadZoneHysteresis,
     RelayHysteresis, Saturation, SaturationAsymmetric, Side, Sinusoid,
 };
-use crate::numeric::{Expression, Interval, Real};
+use crate::numeric::{Interval, Real};
 use crate::orbit;
+use crate::proof::Expression;
 use crate::vehicle::{Allocation, bilinear};
 
 /// Any number; one above zero; zero or more.

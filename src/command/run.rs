@@ -19,8 +19,8 @@ use crate::experiment::Columns;
 use crate::files::{Files, Output};
 use crate::identify::document::{RefusalDocument, UnitNames};
 use crate::identify::{DragLaw, Session, Settings};
-use crate::numeric::Uncertain;
 use crate::on_board::{Coordinate, Experiment, Phase, Protocol, Step};
+use crate::report::Uncertain;
 use display::Display;
 use flags::{ProtocolArguments, in_words};
 

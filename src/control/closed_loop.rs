@@ -57,7 +57,7 @@ impl Tuning<f64> {
         let excess = |omega: f64| 2.0 * self.answer(&open_loop, omega).norm_sqr() - 1.0;
         let at = |k: i32| 0.01 * self.bandwidth_rad_s() * 1.01_f64.powi(k);
         let above = (0..POINTS).find(|k| excess(at(*k)) > 0.0 && excess(at(k + 1)) <= 0.0)?;
-        crate::numeric::scan::bracketed(|omega| Some(excess(omega)), at(above), at(above + 1))
+        crate::numeric::scan::bracketed(&mut |omega| Some(excess(omega)), at(above), at(above + 1))
     }
 
     /// Coordinate over reference at `s = jw`.

@@ -184,7 +184,7 @@ pub fn critical_point(
         nodes.push((last * ratio).min(last + 0.2 / plant.delay_s().max(f64::MIN_POSITIVE)).min(to));
     }
     let response = |omega: f64| plant.response(omega).ok();
-    let real = scan::roots(&nodes, |omega| response(omega).map(|g| g.im / g.norm()));
+    let real = scan::roots(&nodes, &mut |omega| response(omega).map(|g| g.im / g.norm()));
     let largest = real
         .into_iter()
         .filter_map(|omega| Some((omega, response(omega)?.re)))

@@ -226,12 +226,7 @@ fn ramp<T: Real>(at: T, side: Side, branches: Branches, sweep: &Sinusoid<T>) -> 
 
 /// A band as its lower limit and a ramp from there, less a ramp from its upper limit.
 #[inline(never)]
-pub(super) fn band_near_the_maximum<T: Real>(
-    origin: T,
-    lower: T,
-    upper: T,
-    sweep: &Sinusoid<T>,
-) -> DescribingFunction<T> {
+pub fn band_near_the_maximum<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
     let ramp = |at| ramp(at, Side::Above, Branches::Both, sweep);
     flat(lower - origin) + ramp(lower) - ramp(upper)
 }
@@ -253,12 +248,7 @@ fn wide_band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> Des
 
 /// A band as the middle of its limits, and the rest from there.
 #[inline(always)]
-pub(super) fn band_from_the_middle<T: Real>(
-    origin: T,
-    lower: T,
-    upper: T,
-    sweep: &Sinusoid<T>,
-) -> DescribingFunction<T> {
+pub fn band_from_the_middle<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
     flat(half::<T>() * ((lower - origin) + (upper - origin))) + from_the_middle(lower, upper, sweep)
 }
 

@@ -8,13 +8,13 @@
 //! has square roots of nearly nothing, the values are compared on small cells instead, `I` by the mean value theorem.
 
 use super::DescribingFunction;
-use super::kernel::{Arc, band_from_the_middle, band_near_the_maximum, constant};
-use crate::nonlinearity::{Branches, Sinusoid};
+use super::kernel::{Arc, constant};
+use crate::nonlinearity::Branches;
 use crate::numeric::special::Special;
 use crate::numeric::{Interval, Real};
 use crate::proof::branch_and_bound::{Subdivision, Visit, subdivide};
-use crate::proof::identity::{IdentityJet, magnitude, prove_zero_of_two};
-use crate::proof::{Bound, Change, NotProved, Proved, Statement, Unchanged};
+use crate::proof::identity::{IdentityJet, magnitude};
+use crate::proof::{Bound, Change, NotProved, Proved, Unchanged};
 
 /// Length of either end on which values are compared, in radians: beyond, `cos(phi)` and 1 are distinguishable.
 const END: f64 = 3e-8;
@@ -41,54 +41,6 @@ pub enum KernelForm {
     /// The contribution of each end of a band, with the code's own inverse sine: the code rearranges the sum over both ends so
     /// that nothing cancels.
     Band,
-}
-
-/// Proves that the formula for a band from the middle is the difference of two ramps: for every pair of breakpoints within
-/// 0.95 of the bias, in units of the amplitude, but those from 0.5 to 0.5 + 1e-9 away from it. A proof for each of the nine
-/// rectangles on which the code uses a single formula.
-///
-/// ```
-/// use selfosc::describing::prove_band_from_the_middle;
-/// assert!(prove_band_from_the_middle()?.iter().all(|proved| proved.bound.value() < 1e-11));
-/// # Ok::<(), selfosc::proof::NotProved<2>>(())
-/// ```
-///
-/// # Errors
-/// [`NotProved`], if that is not shown to 1e-11.
-pub fn prove_band_from_the_middle() -> Result<Vec<Proved<2>>, NotProved<2>> {
-    prove_changed_band(&Unchanged)
-}
-
-/// [`prove_band_from_the_middle`] of a changed formula: for tests, which hand it a false one.
-///
-/// # Errors
-/// [`NotProved`].
-#[doc(hidden)]
-pub fn prove_changed_band(change: &impl Change) -> Result<Vec<Proved<2>>, NotProved<2>> {
-    let band = Band(change);
-    let pairs = BREAKPOINTS.into_iter().flat_map(|lower| BREAKPOINTS.map(|upper| [lower, upper]));
-    let prove = |domain| {
-        prove_zero_of_two(|a, b| band.at([a, b]), |a: IdentityJet, b| band.at([a, b]), domain, FROM_THE_MIDDLE, BUDGET)
-    };
-    pairs.map(prove).collect()
-}
-
-/// Where the code takes one and the same formula for an angle; together `[-0.95, 0.95]` but for two gaps.
-const BREAKPOINTS: [[f64; 2]; 3] = [[-0.95, -0.5 - 1e-9], [-0.5, 0.5], [0.5 + 1e-9, 0.95]];
-/// Error allowed of a band.
-const FROM_THE_MIDDLE: f64 = 1e-11;
-
-/// The band, by the formula for the middle less that by ramps: mean and sine component.
-struct Band<'a, C>(&'a C);
-
-impl<C: Change> Statement<2, 2> for Band<'_, C> {
-    fn at<T: Special>(&self, [lower, upper]: [T; 2]) -> [T; 2] {
-        let Ok(sweep) = Sinusoid::new(T::zero(), T::one()) else { return [T::from_f64(f64::NAN); 2] };
-        let middle = band_from_the_middle(T::zero(), lower, upper, &sweep);
-        let [mean, sine] = self.0.apply([lower, upper], [middle.f0, middle.p]);
-        let ramps = band_near_the_maximum(T::zero(), lower, upper, &sweep);
-        [mean - ramps.f0, sine - ramps.p]
-    }
 }
 
 impl KernelForm {

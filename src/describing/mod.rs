@@ -60,7 +60,9 @@ internal! {
     #[cfg(feature = "std")]
     use example::{Curve, Example};
     #[cfg(feature = "std")]
-    use kernel_proof::{KernelForm, prove_band_from_the_middle, prove_changed_band};
+    use kernel::{band_from_the_middle, band_near_the_maximum};
+    #[cfg(feature = "std")]
+    use kernel_proof::{KernelForm};
     #[cfg(feature = "std")]
     use quadrature::{harmonic};
     use relay::{bias_of_output};

@@ -76,10 +76,10 @@ pub fn harmonic(
                 let theta = if branch == Branch::Rising { angle } else { PI - angle };
                 output * weight(k * theta)
             };
-            let y = integrate(|angle| weighted(angle, libm::cos), piece[0], piece[1], TOLERANCE, CELLS);
+            let y = integrate(&mut |angle| weighted(angle, libm::cos), piece[0], piece[1], TOLERANCE, CELLS);
             cosine += settled(y)?;
             if order > 0 {
-                let y = integrate(|angle| weighted(angle, libm::sin), piece[0], piece[1], TOLERANCE, CELLS);
+                let y = integrate(&mut |angle| weighted(angle, libm::sin), piece[0], piece[1], TOLERANCE, CELLS);
                 sine += settled(y)?;
             }
             if let Some(fault) = fault {

@@ -1,15 +1,7 @@
-//! What rounding can do to the closed forms of the catalogue: proved bounds, over boxes of parameters, bias and amplitude.
-
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+//! What rounding can do to the closed forms of the catalogue: bounds over boxes of parameters, bias and amplitude, proved by
+//! `tests/properties/rounding.rs`.
 
 use super::{DescribingFunction, Entry};
-use crate::nonlinearity::{ParameterDomain, Sinusoid};
-use crate::numeric::Interval;
-use crate::numeric::rounded::{Double, Format, Rounded, Single};
-
-/// Boxes that a domain is divided into. A bound is finished where more of them lower it by a few percent only.
-const BOXES: usize = 3000;
 
 /// Bounds of the distance between the floats and the exact values of `F_0`, `P` and `Q`, over a domain.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,8 +12,7 @@ pub struct RoundingBounds {
     pub bias: (f64, f64),
     /// Amplitude of the input.
     pub amplitude: (f64, f64),
-    /// In double precision, provided that `libm`'s functions are within the units in the last place that
-    /// [`Format::FUNCTIONS`] assumes.
+    /// In double precision, provided that `libm`'s functions are within a unit in the last place, hyperbolic functions within 2.5.
     pub double: DescribingFunction<f64>,
     /// In single precision.
     pub single: DescribingFunction<f64>,
@@ -97,13 +88,9 @@ const PROVED: [RoundingRow; 20] = [
     ("backlash", &[GAIN, (0.125, 0.25)], QUARTER, (1.0, 2.0), [2.8e-15, 4.4e-15, 9.8e-16], [1.5e-6, 2.3e-6, 4.8e-7]),
 ];
 
-fn row(entry: &Entry) -> Option<&'static RoundingRow> {
-    PROVED.iter().find(|(name, ..)| *name == entry.name)
-}
-
 impl Entry {
-    /// What rounding can do to the closed form, in both precisions, over a domain that is part of the answer: the worst case, proved by
-    /// running the formula in an arithmetic that carries the exact value and a bound of the float's error.
+    /// What rounding can do to the closed form, in both precisions, over a domain that is part of the answer: the worst case. A test
+    /// proves it: the formula runs in an arithmetic that carries the exact value and a bound of the float's error.
     ///
     /// Absolute, in output units for `f0`, in output over input units for `p` and `q`. Nothing is said of inputs that are rounded
     /// before, and nothing outside the domain: where a breakpoint comes near a turning point of the input, the values answer to
@@ -117,103 +104,8 @@ impl Entry {
     /// ```
     #[must_use]
     pub fn rounding_bounds(&self) -> Option<RoundingBounds> {
-        let &(_, parameters, bias, amplitude, double, single) = row(self)?;
+        let &(_, parameters, bias, amplitude, double, single) = PROVED.iter().find(|row| row.0 == self.name)?;
         let [double, single] = [double, single].map(|[f0, p, q]| DescribingFunction { f0, p, q });
         Some(RoundingBounds { parameters: parameters.to_vec(), bias, amplitude, double, single })
     }
-
-    /// The bounds as they are proved, in double and in single precision: a few seconds.
-    #[must_use]
-    pub fn prove_rounding_bounds(&self) -> Option<[DescribingFunction<f64>; 2]> {
-        let (_, parameters, bias, amplitude, ..) = row(self)?;
-        let inputs = parameters.iter().chain([bias, amplitude]);
-        let domain: Vec<_> = inputs.map(|&(from, to)| Interval::new(from, to)).collect::<Option<_>>()?;
-        Some([worst::<Double>(self, &domain), worst::<Single>(self, &domain)])
-    }
-
-    /// The bounds in a sentence, as the page has it.
-    #[must_use]
-    pub fn rounding_sentence(&self) -> Option<String> {
-        let bounds = self.rounding_bounds()?;
-        let between = |(from, to): (f64, f64)| if from < to { format!("{from} to {to}") } else { from.to_string() };
-        let (mut inputs, mut values) = (Vec::new(), bounds.parameters.iter().copied());
-        for parameter in self.parameters {
-            let value = match parameter.domain {
-                ParameterDomain::Points => {
-                    let rest: Vec<_> = values.by_ref().map(between).collect();
-                    rest.chunks(2).map(|point| point.join(":")).collect::<Vec<_>>().join(",")
-                }
-                _ => between(values.next()?),
-            };
-            inputs.push(format!("`{}` {value}", parameter.name));
-        }
-        let last = format!("bias {} and amplitude {}", between(bounds.bias), between(bounds.amplitude));
-        let number = |bound: f64| if bound > 0.0 { format!("{bound:e}") } else { "0".to_owned() };
-        let numbers = |df: DescribingFunction<f64>| [df.f0, df.p, df.q].map(number).join(", ");
-        Some(format!(
-            "**Rounding.** For all floats with {}, {last}, the computed `F_0`, `P`, `Q` are within {} of the exact values in f64 and within {} \
-             in f32; `spec/rounding.md` gives the assumptions.",
-            inputs.join(", "),
-            numbers(bounds.double),
-            numbers(bounds.single),
-        ))
-    }
-}
-
-/// A box, and its bounds.
-struct BoundedBox {
-    at: Vec<Interval>,
-    errors: [f64; 3],
-    /// The largest error against the others' scale.
-    rank: f64,
-}
-
-impl PartialEq for BoundedBox {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for BoundedBox {}
-impl PartialOrd for BoundedBox {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for BoundedBox {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.rank.total_cmp(&other.rank)
-    }
-}
-
-/// The largest bounds over the domain: the box with the largest is halved until there are enough.
-fn worst<F: Format>(entry: &Entry, domain: &[Interval]) -> DescribingFunction<f64> {
-    let whole = errors::<F>(entry, domain);
-    let middle: Vec<_> = domain.iter().map(|side| Interval::point(side.midpoint())).collect();
-    let scale = errors::<F>(entry, &middle).map(|error| error.max(F::UNIT * 1e-3));
-    let rank = |errors: &[f64; 3]| errors.iter().zip(scale).map(|(error, scale)| error / scale).fold(0.0, f64::max);
-    let mut open = BinaryHeap::from([BoundedBox { at: domain.to_vec(), errors: whole, rank: rank(&whole) }]);
-    while open.len() < BOXES {
-        let Some(part) = open.pop() else { break };
-        let share = |k: &usize| if domain[*k].is_point() { 0.0 } else { part.at[*k].width() / domain[*k].width() };
-        let Some(side) = (0..domain.len()).max_by(|a, b| share(a).total_cmp(&share(b))) else { break };
-        let (lower, upper) = part.at[side].bisect();
-        for half in [lower, upper] {
-            let mut at = part.at.clone();
-            at[side] = half;
-            let errors = errors::<F>(entry, &at);
-            open.push(BoundedBox { at, errors, rank: rank(&errors) });
-        }
-    }
-    let [f0, p, q] =
-        open.iter().fold([0.0; 3], |most: [f64; 3], part| core::array::from_fn(|k| most[k].max(part.errors[k])));
-    DescribingFunction { f0, p, q }
-}
-
-/// Bounds over a box; infinite where there are none.
-fn errors<F: Format>(entry: &Entry, at: &[Interval]) -> [f64; 3] {
-    let inputs: Vec<_> = at.iter().map(|&side| Rounded::<F>::input(side)).collect();
-    let df = inputs.split_last_chunk::<2>().and_then(|(values, &[bias, amplitude])| {
-        entry.build(values).ok()?.describing_function(&Sinusoid::new(bias, amplitude).ok()?).ok()
-    });
-    df.map_or([f64::INFINITY; 3], |df| [df.f0, df.p, df.q].map(Rounded::error))
 }

@@ -4,13 +4,13 @@
 //! *Acta Numerica* 19, 2010). For a product of wide factors this is wider than [`Interval`] by the product of the radii.
 
 #[cfg(test)]
+#[path = "../../tests/properties/private/balls.rs"]
 mod tests;
-
-use core::ops::{Add, Mul, Neg, Sub};
 
 use wide::f64x4;
 
 use super::Interval;
+use super::real::operators;
 
 /// More than all products of a sum lose by underflow.
 const UNDERFLOW: f64 = 1e-300;
@@ -80,15 +80,6 @@ impl Balls {
         Self { middle: [self.middle[place]; Self::COUNT], radius: [self.radius[place]; Self::COUNT] }
     }
 
-    #[inline]
-    fn interval(middle: f64, radius: f64) -> Interval {
-        // A ball that is not finite encloses nothing useful: the entire line.
-        if !(middle.is_finite() && radius.is_finite()) {
-            return Interval::ENTIRE;
-        }
-        Interval::point(middle) + Interval::symmetric(radius)
-    }
-
     /// As intervals.
     #[inline]
     pub(crate) fn intervals(self) -> [Interval; Self::COUNT] {
@@ -98,7 +89,13 @@ impl Balls {
     /// One of them.
     #[inline]
     pub(crate) fn interval_at(self, place: usize) -> Interval {
-        Self::interval(self.middle[place], self.radius[place])
+        let (middle, radius) = (self.middle[place], self.radius[place]);
+        // A ball that is not finite encloses nothing useful: the entire line.
+        if middle.is_finite() && radius.is_finite() {
+            Interval::point(middle) + Interval::symmetric(radius)
+        } else {
+            Interval::ENTIRE
+        }
     }
 
     /// Everything within these sizes.
@@ -144,38 +141,16 @@ impl Balls {
     }
 }
 
-impl Add for Balls {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        let middle = self.middle() + other.middle();
+operators! {
+    [#[inline] Balls]
+    Neg::neg = |a| Self { middle: a.middle.map(|middle| -middle), ..a };
+    Add::add = |a, b| {
+        let middle = a.middle() + b.middle();
         let rounded = middle.abs() * f64::EPSILON;
-        Self::of(middle, (self.radius() + other.radius() + rounded) * larger(1))
-    }
-}
-
-impl Neg for Balls {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Self { middle: self.middle.map(|middle| -middle), radius: self.radius }
-    }
-}
-
-impl Sub for Balls {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl Mul for Balls {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        Self::dot(core::iter::once((self, other)))
-    }
+        Self::of(middle, (a.radius() + b.radius() + rounded) * larger(1))
+    };
+    Sub::sub = |a, b| a + -b;
+    Mul::mul = |a, b| Self::dot(core::iter::once((a, b)));
 }
 
 /// Upper bounds of magnitudes, side by side.
@@ -230,18 +205,8 @@ impl Sizes {
     }
 }
 
-impl Add for Sizes {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        Self::of((self.wide() + other.wide()) * larger(1))
-    }
-}
-
-impl Mul for Sizes {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        Self::of(self.wide() * other.wide() * larger(1) + UNDERFLOW)
-    }
+operators! {
+    [#[inline] Sizes]
+    Add::add = |a, b| Self::of((a.wide() + b.wide()) * larger(1));
+    Mul::mul = |a, b| Self::of(a.wide() * b.wide() * larger(1) + UNDERFLOW);
 }

@@ -1,7 +1,6 @@
 //! Complex numbers over any arithmetic of this crate; over intervals, rectangles that enclose.
 
-use core::ops::{Add, Mul, Neg, Sub};
-
+use super::real::operators;
 use super::{Interval, Real};
 
 /// `re + j im`.
@@ -56,30 +55,10 @@ impl Complex<Interval> {
     }
 }
 
-impl<T: Real> Add for Complex<T> {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self::new(self.re + other.re, self.im + other.im)
-    }
-}
-
-impl<T: Real> Sub for Complex<T> {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self::new(self.re - other.re, self.im - other.im)
-    }
-}
-
-impl<T: Real> Neg for Complex<T> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self::new(-self.re, -self.im)
-    }
-}
-
-impl<T: Real> Mul for Complex<T> {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self::new(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
-    }
+operators! {
+    [Complex<T>, T: Real]
+    Neg::neg = |a| Self::new(-a.re, -a.im);
+    Add::add = |a, b| Self::new(a.re + b.re, a.im + b.im);
+    Sub::sub = |a, b| Self::new(a.re - b.re, a.im - b.im);
+    Mul::mul = |a, b| Self::new(a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re);
 }

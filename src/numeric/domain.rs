@@ -143,29 +143,25 @@ impl fmt::Display for Plain {
     }
 }
 
-/// A computed number, to three digits.
-pub(crate) struct About(pub(crate) f64);
-/// A computed upper bound that a user may type in: three digits, not rounded up.
-pub(crate) struct AtMost(pub(crate) f64);
-/// A computed lower bound, not rounded down.
-pub(crate) struct AtLeast(pub(crate) f64);
+macro_rules! of_three_digits {
+    ($($(#[$meaning:meta])* $name:ident by $round:path;)+) => { $(
+        $(#[$meaning])*
+        pub(crate) struct $name(pub(crate) f64);
 
-impl fmt::Display for About {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt_three_digits(self.0, libm::round, f)
-    }
+        impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                fmt_three_digits(self.0, $round, f)
+            }
+        }
+    )+ };
 }
-
-impl fmt::Display for AtMost {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt_three_digits(self.0, libm::floor, f)
-    }
-}
-
-impl fmt::Display for AtLeast {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt_three_digits(self.0, libm::ceil, f)
-    }
+of_three_digits! {
+    /// A computed number, to three digits.
+    About by libm::round;
+    /// A computed upper bound that a user may type in: three digits, not rounded up.
+    AtMost by libm::floor;
+    /// A computed lower bound, not rounded down.
+    AtLeast by libm::ceil;
 }
 
 fn fmt_three_digits(value: f64, round: fn(f64) -> f64, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -212,19 +208,19 @@ pub(crate) fn require_that<T: Real>(
     limit: Limit,
     remedy: &'static str,
 ) -> Result<T, OutOfDomain> {
-    if inside && limit.holds(value) { Ok(value) } else { Err(outside(quantity, value, unit, limit, remedy)) }
+    if inside && limit.holds(value) { Ok(value) } else { outside(quantity, value.bounds().0, unit, limit, remedy) }
 }
 
 #[cold]
 #[inline(never)]
-fn outside<T: Real>(
+fn outside<T>(
     quantity: &'static str,
-    value: T,
+    value: f64,
     unit: &'static str,
     limit: Limit,
     remedy: &'static str,
-) -> OutOfDomain {
-    OutOfDomain { quantity, value: value.bounds().0, unit, limit, remedy }
+) -> Result<T, OutOfDomain> {
+    Err(OutOfDomain { quantity, value, unit, limit, remedy })
 }
 
 /// The value, where `limit` holds.
@@ -262,10 +258,7 @@ pub(crate) const UNITS: &str =
 pub(crate) fn representable<T: Real>(quantity: &'static str, value: T, unit: &'static str) -> Result<T, OutOfDomain> {
     let (lower, upper) = value.bounds();
     let number = lower.is_finite() || lower < upper;
-    if number {
-        return Ok(value);
-    }
-    Err(OutOfDomain { quantity, value: lower, unit, limit: Limit::Finite, remedy: UNITS })
+    if number { Ok(value) } else { outside(quantity, lower, unit, Limit::Finite, UNITS) }
 }
 
 /// Nothing, where both ends of the range are above zero and in order.

@@ -2,33 +2,65 @@
 
 use core::array;
 use core::cmp::Ordering;
-use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::real::operators;
 use super::{Interval, Real, Scalar};
 
-/// A number that a gradient can be made of: with its derivatives at comparisons.
+/// A number that a gradient can be made of: with its derivatives at comparisons. By default a comparison is decided where the
+/// bounds decide it.
 pub trait Component: Real + PartialEq {
     /// The derivative where a function may jump: any number.
     const UNKNOWN: Self;
-    /// Whether the number is positive; `None` where it may be and may not.
-    fn sign(self) -> Option<bool>;
-    /// Whether the number is less than another, or equal; `None` where either may be less.
-    fn precedes_or_equals(self, other: Self) -> Option<bool>;
     /// Contains both.
     #[must_use]
     fn either(self, other: Self) -> Self;
+    /// Whether the number is positive; `None` where it may be and may not.
+    #[inline]
+    fn sign(self) -> Option<bool> {
+        match self.bounds() {
+            (lower, _) if lower > 0.0 => Some(true),
+            (_, upper) if upper <= 0.0 => Some(false),
+            _ => None,
+        }
+    }
+    /// Whether the number is less than another, or equal; `None` where either may be less, and where a kink may be: bounds touch.
+    #[inline]
+    fn precedes_or_equals(self, other: Self) -> Option<bool> {
+        match (self.bounds(), other.bounds()) {
+            (a, b) if a.1 < b.0 => Some(true),
+            (a, b) if b.1 < a.0 => Some(false),
+            _ => None,
+        }
+    }
     /// The derivative of [`abs`](Real::abs) here.
     #[must_use]
-    fn slope_of_abs(self) -> Self;
-    /// `exp(self)`, given `exp(self) - 1`.
+    fn slope_of_abs(self) -> Self {
+        match self.precedes_or_equals(Self::zero()) {
+            Some(true) => -Self::one(),
+            Some(false) => Self::one(),
+            // A jump, of which the derivative is unknown.
+            None => Self::one().either(-Self::one()).select(|| -Self::one(), Self::one),
+        }
+    }
+    /// `exp(self)`, given `exp(self) - 1`: their sum cancels for large negative numbers.
     #[must_use]
-    fn exp_from_exp_m1(self, exp_m1: Self) -> Self;
+    fn exp_from_exp_m1(self, _exp_m1: Self) -> Self {
+        self.exp()
+    }
     /// Whether [`floor`](Real::floor) is constant here.
-    fn floor_is_constant(self) -> bool;
+    fn floor_is_constant(self) -> bool {
+        let (lower, upper) = self.floor().bounds();
+        lower >= upper
+    }
 }
 
+/// Always decided: at a kink for a single side.
 impl Component for f64 {
     const UNKNOWN: Self = Self::NAN;
+    #[inline]
+    fn either(self, _: Self) -> Self {
+        self
+    }
     #[inline]
     fn sign(self) -> Option<bool> {
         Some(self > 0.0)
@@ -36,10 +68,6 @@ impl Component for f64 {
     #[inline]
     fn precedes_or_equals(self, other: Self) -> Option<bool> {
         Some(!(other < self))
-    }
-    #[inline]
-    fn either(self, _: Self) -> Self {
-        self
     }
     #[inline]
     fn slope_of_abs(self) -> Self {
@@ -57,62 +85,16 @@ impl Component for f64 {
 
 impl Component for Interval {
     const UNKNOWN: Self = Self::ENTIRE;
-    fn sign(self) -> Option<bool> {
-        match self {
-            value if value.is_positive() => Some(true),
-            value if value.upper() <= 0.0 => Some(false),
-            _ => None,
-        }
-    }
-    fn precedes_or_equals(self, other: Self) -> Option<bool> {
-        match (self, other) {
-            (a, b) if a.precedes(b) => Some(true),
-            (a, b) if b.precedes(a) => Some(false),
-            _ => None,
-        }
-    }
     fn either(self, other: Self) -> Self {
         self.hull(other)
-    }
-    fn slope_of_abs(self) -> Self {
-        match self {
-            value if value.is_positive() => Self::ONE,
-            value if value.is_negative() => -Self::ONE,
-            _ => Self::UNIT,
-        }
-    }
-    fn exp_from_exp_m1(self, _: Self) -> Self {
-        // The sum would cancel for large negative numbers.
-        self.exp()
-    }
-    fn floor_is_constant(self) -> bool {
-        self.floor().is_point()
     }
 }
 
 /// Derivatives of derivatives.
 impl<const N: usize> Component for Gradient<Interval, N> {
     const UNKNOWN: Self = Self { value: Interval::ENTIRE, slopes: [Interval::ENTIRE; N] };
-    fn sign(self) -> Option<bool> {
-        self.value.sign()
-    }
-    fn precedes_or_equals(self, other: Self) -> Option<bool> {
-        self.value.precedes_or_equals(other.value)
-    }
     fn either(self, other: Self) -> Self {
-        Self { value: self.value.hull(other.value), slopes: array::from_fn(|i| self.slopes[i].hull(other.slopes[i])) }
-    }
-    fn slope_of_abs(self) -> Self {
-        match self.value.slope_of_abs() {
-            known if known.is_point() => Self::constant(known),
-            either => Self { value: either, ..Self::UNKNOWN },
-        }
-    }
-    fn exp_from_exp_m1(self, _: Self) -> Self {
-        self.exp()
-    }
-    fn floor_is_constant(self) -> bool {
-        self.value.floor_is_constant()
+        self.combine(other, self.value.hull(other.value), Interval::hull)
     }
 }
 
@@ -225,47 +207,20 @@ impl<const N: usize> Scalar for Gradient<f64, N> {
     }
 }
 
-impl<T: Component, const N: usize> Neg for Gradient<T, N> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        self.chain(-self.value, -T::one())
-    }
-}
-
-impl<T: Component, const N: usize> Add for Gradient<T, N> {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        self.combine(other, self.value + other.value, Add::add)
-    }
-}
-
-impl<T: Component, const N: usize> Sub for Gradient<T, N> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self.combine(other, self.value - other.value, Sub::sub)
-    }
-}
-
-impl<T: Component, const N: usize> Mul for Gradient<T, N> {
-    type Output = Self;
-    #[expect(clippy::suspicious_arithmetic_impl, reason = "the product rule")]
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        self.combine(other, self.value * other.value, |a, b| a * other.value + b * self.value)
-    }
-}
-
-impl<T: Component, const N: usize> Div for Gradient<T, N> {
-    type Output = Self;
-    #[expect(clippy::suspicious_arithmetic_impl, reason = "the quotient rule")]
-    #[inline]
-    fn div(self, divisor: Self) -> Self {
-        let quotient = self.value / divisor.value;
-        self.combine(divisor, quotient, |a, b| (a - b * quotient) / divisor.value)
-    }
+operators! {
+    [
+        #[inline]
+        #[allow(clippy::suspicious_arithmetic_impl, reason = "the rules of products and quotients")]
+        Gradient<T, N>, T: Component, const N: usize
+    ]
+    Neg::neg = |x| x.chain(-x.value, -T::one());
+    Add::add = |x, y| x.combine(y, x.value + y.value, |dx, dy| dx + dy);
+    Sub::sub = |x, y| x.combine(y, x.value - y.value, |dx, dy| dx - dy);
+    Mul::mul = |x, y| x.combine(y, x.value * y.value, |dx, dy| dx * y.value + dy * x.value);
+    Div::div = |x, y| {
+        let quotient = x.value / y.value;
+        x.combine(y, quotient, |dx, dy| (dx - dy * quotient) / y.value)
+    };
 }
 
 /// Functions of a single variable: value, and derivative in terms of the argument `x` and the value `y`.
@@ -329,7 +284,7 @@ impl<T: Component, const N: usize> Real for Gradient<T, N> {
             return by_base;
         }
         let by_exponent = exponent.chain(power, power * base.ln());
-        by_base.combine(by_exponent, power, Add::add)
+        by_base.combine(by_exponent, power, |a, b| a + b)
     }
     fn floor(self) -> Self {
         let floor = self.value.floor();

@@ -6,12 +6,15 @@ mod real;
 mod rounding;
 mod series;
 #[cfg(test)]
+#[path = "../../tests/properties/private/interval.rs"]
 mod tests;
 
 use core::fmt;
-use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::ops::{Div, Mul};
 
 use rounding::{product, quotient, sum};
+
+use super::real::operators;
 
 /// A closed interval of real numbers; its endpoints may be infinite but belong to it only when finite.
 ///
@@ -304,47 +307,23 @@ impl fmt::Display for Interval {
     }
 }
 
-impl Neg for Interval {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Self { lo: -self.hi, hi: -self.lo }
-    }
+operators! {
+    [#[inline] Interval]
+    Neg::neg = |a| Self { lo: -a.hi, hi: -a.lo };
+    Add::add = |a, b| Self { lo: sum(a.lo, b.lo).down(), hi: sum(a.hi, b.hi).up() };
+    Sub::sub = |a, b| a + -b;
 }
 
-impl Add for Interval {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        Self { lo: sum(self.lo, other.lo).down(), hi: sum(self.hi, other.hi).up() }
-    }
+macro_rules! assigned {
+    ($($trait:ident::$method:ident by $operator:tt),+) => { $(
+        impl core::ops::$trait for Interval {
+            fn $method(&mut self, other: Self) {
+                *self = *self $operator other;
+            }
+        }
+    )+ };
 }
-
-impl Sub for Interval {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl AddAssign for Interval {
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Interval {
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl MulAssign for Interval {
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
-}
+assigned!(AddAssign::add_assign by +, SubAssign::sub_assign by -, MulAssign::mul_assign by *);
 
 impl Mul for Interval {
     type Output = Self;

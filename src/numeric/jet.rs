@@ -1,8 +1,9 @@
 //! Taylor jets over intervals: a function's value and derivatives at a point, or at every point of an interval at once.
 
 use core::array;
-use core::ops::{Add, Div, Mul, Neg, Sub};
+use core::ops::{Div, Mul};
 
+use super::real::operators;
 use super::{Interval, Real};
 
 /// Enclosures of the first `N` Taylor coefficients `f^(k)(t)/k!`, `k < N`, for every point `t` of the interval the
@@ -215,25 +216,11 @@ fn convolution(a: &[Interval], b: &[Interval], k: usize) -> Interval {
     dot(&a[..=k], &b[..=k])
 }
 
-impl<const N: usize> Neg for Jet<N> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { coefficients: self.coefficients.map(Neg::neg) }
-    }
-}
-
-impl<const N: usize> Add for Jet<N> {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self { coefficients: array::from_fn(|k| self.coefficients[k] + other.coefficients[k]) }
-    }
-}
-
-impl<const N: usize> Sub for Jet<N> {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self { coefficients: array::from_fn(|k| self.coefficients[k] - other.coefficients[k]) }
-    }
+operators! {
+    [Jet<N>, const N: usize]
+    Neg::neg = |a| Self { coefficients: a.coefficients.map(|c| -c) };
+    Add::add = |a, b| Self { coefficients: array::from_fn(|k| a.coefficients[k] + b.coefficients[k]) };
+    Sub::sub = |a, b| Self { coefficients: array::from_fn(|k| a.coefficients[k] - b.coefficients[k]) };
 }
 
 impl<const N: usize> Mul for Jet<N> {

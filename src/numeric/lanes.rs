@@ -2,15 +2,15 @@
 
 mod circular;
 #[cfg(test)]
+#[path = "../../tests/properties/private/lanes.rs"]
 mod tests;
 
 use core::array;
-use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use wide::f64x4;
 
 use super::Real;
-use super::real::{near_reciprocal, own_sine_series};
+use super::real::{near_reciprocal, operators, own_sine_series};
 
 /// Floats of which each takes the same operations as it would alone: a formula gives the same bits.
 ///
@@ -70,25 +70,13 @@ impl Lanes {
     }
 }
 
-macro_rules! side_by_side {
-    ($($trait:ident::$method:ident),+) => { $(
-        impl $trait for Lanes {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Self($trait::$method(self.0, other.0))
-            }
-        }
-    )+ };
-}
-side_by_side!(Add::add, Sub::sub, Mul::mul, Div::div);
-
-impl Neg for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
+operators! {
+    [#[inline(always)] Lanes]
+    Neg::neg = |a| Self(-a.0);
+    Add::add = |a, b| Self(a.0 + b.0);
+    Sub::sub = |a, b| Self(a.0 - b.0);
+    Mul::mul = |a, b| Self(a.0 * b.0);
+    Div::div = |a, b| Self(a.0 / b.0);
 }
 
 macro_rules! one_by_one {

@@ -5,8 +5,6 @@ mod balls;
 mod bessel;
 mod complex;
 pub(crate) mod domain;
-#[cfg(feature = "std")]
-mod expression;
 mod gradient;
 mod interval;
 mod jet;
@@ -20,18 +18,20 @@ mod root;
 mod runge_kutta;
 #[cfg(feature = "std")]
 mod significant;
-#[cfg(feature = "std")]
-mod uncertain;
 
 internal! {
     mod power;
     #[cfg(feature = "std")]
     mod quadrature;
-    mod rounded;
     #[cfg(feature = "std")]
     mod scan;
     mod special;
 }
+
+#[cfg(all(test, feature = "std"))]
+#[path = "../../tests/properties/numeric/rounded/mod.rs"]
+#[allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::cast_possible_truncation, reason = "a test may panic")]
+pub(crate) mod rounded;
 
 #[cfg(feature = "std")]
 pub(crate) use balls::{Balls, Sizes};
@@ -41,19 +41,16 @@ pub(crate) use lanes::Lanes;
 pub(crate) use runge_kutta::runge_kutta;
 #[cfg(feature = "std")]
 pub(crate) use significant::significant;
-#[cfg(feature = "std")]
-pub(crate) use uncertain::Uncertain;
 
 pub(crate) use complex::Complex;
 pub(crate) use domain::codes;
 pub use domain::{Limit, OutOfDomain};
 pub use interval::Interval;
+pub(crate) use real::operators;
 pub use real::{Real, Scalar};
 pub use special::Special;
 
 internal! {
-    #[cfg(feature = "std")]
-    use expression::{Expression};
     use gradient::{Component, Gradient};
     use jet::{Jet};
     use minimum::{golden_section};
@@ -61,5 +58,6 @@ internal! {
         atanh_root_ratio, cosh_root, cosh_root_difference, exp_m1_ratio, ln_1p_ratio, minus_ln_1p, minus_tanh,
         sinh_root_difference, sinh_root_ratio,
     };
+    use real::{own_sine_series};
     use root::{increasing_root};
 }

@@ -35,11 +35,11 @@ pub struct Quadrature {
 ///
 /// ```
 /// use selfosc::numeric::quadrature::integrate;
-/// let q = integrate(|x: f64| x.exp(), 0.0, 1.0, 1e-13, 100);
+/// let q = integrate(&mut |x: f64| x.exp(), 0.0, 1.0, 1e-13, 100);
 /// assert!((q.value - (1f64.exp() - 1.0)).abs() < 1e-14);
 /// ```
-pub fn integrate(mut f: impl FnMut(f64) -> f64, from: f64, to: f64, tolerance: f64, cells: usize) -> Quadrature {
-    let first = Panel { estimate: f64::INFINITY, ..Panel::new(&mut f, from, to) };
+pub fn integrate(f: &mut dyn FnMut(f64) -> f64, from: f64, to: f64, tolerance: f64, cells: usize) -> Quadrature {
+    let first = Panel { estimate: f64::INFINITY, ..Panel::new(f, from, to) };
     let mut heap = std::collections::BinaryHeap::from([first]);
     let total =
         |heap: &std::collections::BinaryHeap<Panel>, part: fn(&Panel) -> f64| heap.iter().map(part).sum::<f64>();
@@ -54,7 +54,7 @@ pub fn integrate(mut f: impl FnMut(f64) -> f64, from: f64, to: f64, tolerance: f
             heap.push(worst);
             break;
         }
-        let halves = [Panel::new(&mut f, worst.from, middle), Panel::new(&mut f, middle, worst.to)];
+        let halves = [Panel::new(f, worst.from, middle), Panel::new(f, middle, worst.to)];
         // The two rules can agree by chance: `|I_left + I_right - I|` is an independent estimate, far above the halves' own error.
         let change = (halves[0].value + halves[1].value - worst.value).abs();
         heap.extend(halves.map(|half| Panel { estimate: half.estimate.max(CARRIED * change), ..half }));
@@ -77,7 +77,7 @@ struct Panel {
 }
 
 impl Panel {
-    fn new(f: &mut impl FnMut(f64) -> f64, from: f64, to: f64) -> Self {
+    fn new(f: &mut dyn FnMut(f64) -> f64, from: f64, to: f64) -> Self {
         let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
         let (mut kronrod, mut gauss, mut magnitude) = (0.0, 0.0, 0.0);
         for (node, weight, gauss_weight) in RULE {

@@ -3,6 +3,24 @@
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+/// Implements operators of a type, each by a formula of its operands.
+macro_rules! operators {
+    ($type:tt $($trait:ident::$method:ident = |$a:ident $(, $b:ident)?| $formula:expr;)+) => {
+        $( $crate::numeric::operators!(@ $type $trait $method |$a $(, $b)?| $formula); )+
+    };
+    (@ [$(#[$attribute:meta])* $type:ty $(, $($generics:tt)+)?] $trait:ident $method:ident |$a:ident $(, $b:ident)?| $formula:expr) => {
+        impl $(<$($generics)+>)? core::ops::$trait for $type {
+            type Output = Self;
+            $(#[$attribute])*
+            fn $method(self $(, $b: Self)?) -> Self {
+                let $a = self;
+                $formula
+            }
+        }
+    };
+}
+pub(crate) use operators;
+
 /// A number a formula of this crate can be written over: f32, f64, dual numbers, intervals.
 ///
 /// A formula generic over `Real` has no branches on values: an interval can straddle a case distinction, hence `Real`
@@ -207,7 +225,7 @@ pub(super) fn minus_own_sine<S: Scalar>(x: S, sine: S) -> S {
 
 /// `x - sin x` for `x <= 1`; the first omitted term is below 2e-17 of the sum.
 #[inline]
-pub(super) fn own_sine_series<S: Real>(x: S) -> S {
+pub fn own_sine_series<S: Real>(x: S) -> S {
     // 6 (-1)^k/(2 k + 3)!, in pairs: the processor works on several at once.
     const FACTORS: [[f64; 2]; 4] = [
         [1.0, -1.0 / 20.0],

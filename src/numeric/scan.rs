@@ -3,7 +3,7 @@
 use super::golden_section;
 
 /// A function of a single variable that may be undefined in places.
-type Partial<'a> = &'a mut dyn FnMut(f64) -> Option<f64>;
+pub type Partial<'a> = &'a mut dyn FnMut(f64) -> Option<f64>;
 
 /// Halvings after which an interval of f64 cannot be halved.
 const HALVINGS: usize = 200;
@@ -16,13 +16,12 @@ const HALVINGS: usize = 200;
 /// ```
 /// use selfosc::numeric::scan::roots;
 /// let nodes: Vec<f64> = (0..=20).map(|k| f64::from(k) * 0.5).collect();
-/// let found = roots(&nodes, |x| Some(x.sin()));
+/// let found = roots(&nodes, &mut |x| Some(x.sin()));
 /// assert_eq!(found.len(), 4);
 /// assert!((found[1] - core::f64::consts::PI).abs() < 1e-15);
-/// assert!(roots(&nodes, |x| Some(1.0 / (x - 1.3))).is_empty());
+/// assert!(roots(&nodes, &mut |x| Some(1.0 / (x - 1.3))).is_empty());
 /// ```
-pub fn roots(nodes: &[f64], mut f: impl FnMut(f64) -> Option<f64>) -> Vec<f64> {
-    let f: Partial = &mut f;
+pub fn roots(nodes: &[f64], f: Partial) -> Vec<f64> {
     let mut samples: Vec<(f64, f64)> = Vec::with_capacity(nodes.len());
     let mut found = Vec::new();
     let mut before: Option<(f64, bool)> = None;
@@ -48,8 +47,7 @@ pub fn roots(nodes: &[f64], mut f: impl FnMut(f64) -> Option<f64>) -> Vec<f64> {
 
 /// The root of `f` between two points where it has opposite signs; `None` if it has not, or where that is a pole or
 /// undefined.
-pub fn bracketed(mut f: impl FnMut(f64) -> Option<f64>, from: f64, to: f64) -> Option<f64> {
-    let f: Partial = &mut f;
+pub fn bracketed(f: Partial, from: f64, to: f64) -> Option<f64> {
     let (at_from, at_to) = (finite(f, from)?, finite(f, to)?);
     if at_from * at_to < 0.0 { bracket(f, (from, at_from), (to, at_to)) } else { None }
 }

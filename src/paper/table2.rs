@@ -1,6 +1,7 @@
 //! Table 2: the parameters of the uncoupled axes (eq. 6), in the terms of the six-axis model.
 
-use crate::numeric::{Expression, Interval, Real};
+use crate::numeric::{Interval, Real};
+use crate::proof::Expression;
 use crate::vehicle::Axis;
 
 /// The terms of the six-axis model that act on a single axis. Derivatives are those of the hydrodynamic force, so that drag and

@@ -2,7 +2,8 @@
 
 use super::PaperError;
 use crate::identify::iso::{Oscillation, Parameters, disturbance_from_times};
-use crate::numeric::{Expression, Interval, Real};
+use crate::numeric::{Interval, Real};
+use crate::proof::Expression;
 
 /// Table 3 in any arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]

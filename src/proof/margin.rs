@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Gradient;
-use crate::numeric::{Expression, Interval, Jet};
+use super::{Expression, Gradient};
+use crate::numeric::{Interval, Jet};
 
 /// Unknowns of an inequality, used or not.
 pub const VARIABLES: usize = 3;

@@ -4,6 +4,8 @@
 pub mod branch_and_bound;
 pub mod enclosure;
 #[cfg(feature = "std")]
+mod expression;
+#[cfg(feature = "std")]
 pub mod identity;
 #[cfg(feature = "std")]
 pub mod inequality;
@@ -45,7 +47,9 @@ pub(crate) use document;
 pub type Gradient<const N: usize> = crate::numeric::Gradient<crate::numeric::Interval, N>;
 
 #[cfg(feature = "std")]
+pub use expression::Expression;
+#[cfg(feature = "std")]
 pub use margin::formula;
 #[cfg(feature = "std")]
 pub use outcome::{Bound, Extent, NotProved, Proved};
-pub use statement::{Change, Statement, Unchanged};
+pub use statement::{Change, Unchanged};

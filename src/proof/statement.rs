@@ -1,15 +1,6 @@
-//! Statements as objects: written once, evaluated on intervals, on jets and wherever else a proof or its reader needs them.
+//! Changes of a statement: written once, evaluated on intervals, on jets and wherever else a proof needs them.
 
 use crate::numeric::special::Special;
-
-/// `M` functions of `N` variables, which a proof shows to vanish.
-///
-/// A closure has one arithmetic; a statement has all of them: the formula proved on jets, evaluated on
-/// intervals and printed in a file is the same.
-pub trait Statement<const N: usize, const M: usize> {
-    /// The functions, in any arithmetic.
-    fn at<T: Special>(&self, variables: [T; N]) -> [T; M];
-}
 
 /// A change of a formula's value: a test hands the engine a false statement by it, and the engine must not prove that.
 pub trait Change {

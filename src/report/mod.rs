@@ -13,6 +13,7 @@ mod nyquist;
 pub mod paper;
 mod process;
 mod table;
+mod uncertain;
 
 pub use characteristics::{characteristic, characteristics};
 pub use error::ReportError;
@@ -21,3 +22,5 @@ pub use html::{Document, Section};
 pub use nyquist::nyquist;
 pub use process::ProcessPage;
 pub use table::{Cell, Table};
+
+pub(crate) use uncertain::Uncertain;

@@ -1,10 +1,10 @@
 //! Gains from a relay record, as a page: what to type first, then the record, the loop and its answer to a load.
 
-use super::{Cell, Document, Figure, Mark, Panel, Section, Table};
+use super::{Cell, Document, Figure, Mark, Panel, Section, Table, Uncertain};
 use crate::autotune::{LoopCurves, ProcessRecord, ProvedGains, Ruled};
 use crate::experiment::Log;
 use crate::identify::NORMAL_95;
-use crate::numeric::{Uncertain, significant};
+use crate::numeric::significant;
 
 /// Readings that a figure shows, the last of them.
 const SHOWN: usize = 1500;

@@ -5,7 +5,7 @@ use pulldown_latex::{Parser, Storage, push_mathml};
 use serde_json::{Map, Value, json};
 
 use super::ReportError;
-use crate::numeric::Expression;
+use crate::proof::Expression;
 
 /// A page folds a table away that has more rows.
 const LONG: usize = 24;

@@ -163,9 +163,9 @@ fn first_event(system: &impl EventSystem, time: f64, from: &[f64], step: &Step) 
     let mut first: Option<(usize, f64)> = None;
     for index in 0..system.guards() {
         let start = system.guard(index, time, from);
-        let cubic = |share: f64| Some(system.guard(index, time + share * step.length, &step.between(from, share)));
+        let mut cubic = |share: f64| Some(system.guard(index, time + share * step.length, &step.between(from, share)));
         let ends_above = start <= 0.0 && system.guard(index, time + step.length, &step.state) > 0.0;
-        if !ends_above && scan::roots(&nodes, cubic).is_empty() {
+        if !ends_above && scan::roots(&nodes, &mut cubic).is_empty() {
             continue;
         }
         let exact = |share: f64| {
@@ -174,7 +174,7 @@ fn first_event(system: &impl EventSystem, time: f64, from: &[f64], step: &Step) 
         };
         // Rising passages only; a passage at the very start is the event that began this step.
         let rising = |share: &f64| *share > 0.0 && exact(share + 1e-6).is_some_and(|after| after > 0.0);
-        if let Some(share) = scan::roots(&nodes, exact).into_iter().find(rising) {
+        if let Some(share) = scan::roots(&nodes, &mut |share| exact(share)).into_iter().find(rising) {
             let part = share * step.length;
             if first.is_none_or(|(_, other)| part < other) {
                 first = Some((index, part));

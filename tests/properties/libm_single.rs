@@ -2,8 +2,8 @@
 //!
 //! Sine, cosine and tangent up to 1024. `fixtures/libm_single.txt` has what came out.
 
+use crate::numeric::rounded::{Format, Single};
 use rayon::prelude::*;
-use selfosc::numeric::rounded::{Format, Single};
 
 /// A unit in the last place of single precision at a number.
 fn unit(value: f64) -> f64 {

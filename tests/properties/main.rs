@@ -38,6 +38,7 @@ mod libm_single;
 mod manoeuvre;
 mod method_bias;
 mod motion_drag_axis;
+mod numeric;
 mod on_board;
 mod oracle;
 mod orbit_certified;

@@ -3,13 +3,14 @@
 use proptest::prelude::*;
 use selfosc::identify::fit::select::pairwise::relative_spread_percent;
 use selfosc::identify::iso::{Oscillation, amplitude_sensitivity};
-use selfosc::numeric::{Expression, Interval, Real};
+use selfosc::numeric::{Interval, Real};
 use selfosc::paper::audit::{Group, audit};
 use selfosc::paper::consistency::{Consistency, Verdict, consistency};
 use selfosc::paper::figure15::{CRITERIA, Counts, Pairs, figure15};
 use selfosc::paper::fixtures::{read_statements, read_table4, statements};
 use selfosc::paper::table4::{PrintedTable, Table4, table4};
 use selfosc::paper::{PaperError, Printed, quantisation, relay_figures, table2, table3, thruster_figure};
+use selfosc::proof::Expression;
 use selfosc::vehicle::{Axis, pool_vehicle};
 
 use crate::tolerance;

@@ -70,7 +70,7 @@ impl LipschitzLoop<'_> {
         let ends = [*omega_rad_s.start(), *omega_rad_s.end()];
         let count = (1000.0 + 40.0 * self.plant.delay_s() * ends[1]).min(1e5);
         let nodes: Vec<f64> = evenly(ends.map(libm::log), count).map(libm::exp).collect();
-        let mut crossings = scan::roots(&nodes, |omega| Some(self.plant.response(omega).ok()?.im));
+        let mut crossings = scan::roots(&nodes, &mut |omega| Some(self.plant.response(omega).ok()?.im));
         crossings.truncate(CROSSINGS);
         crossings
     }

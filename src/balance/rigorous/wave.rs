@@ -222,7 +222,7 @@ impl Wave {
                     continue;
                 }
                 // From a guess by the mean value theorem, first over the run, then over what that leaves.
-                let guess = scan::bracketed(|theta| Some(self.at(theta).0 - level), cell.lower(), cell.upper());
+                let guess = scan::bracketed(&mut |theta| Some(self.at(theta).0 - level), cell.lower(), cell.upper());
                 let narrowed = guess.and_then(|guess| {
                     let towards = |slope: Interval| Interval::point(guess) - above(guess) / slope;
                     let part = towards(slope).intersection(cell)?;

@@ -176,7 +176,8 @@ fn surge(budget: Budget, measured: fn([f64; 2]) -> f64) -> Verdict {
                 maximum = maximum.max(state[1]);
                 next = moved(state, command, step_s);
             }
-            let Some(part_s) = scan::bracketed(|part_s| Some(left(moved(state, command, part_s))), 0.0, step_s) else {
+            let Some(part_s) = scan::bracketed(&mut |part_s| Some(left(moved(state, command, part_s))), 0.0, step_s)
+            else {
                 return Some(Case::truth(false));
             };
             *switching = time_s + part_s;
@@ -274,7 +275,7 @@ enum Gain {
 fn first_harmonic(x: impl Fn(f64) -> f64, ends: &[f64], period_s: f64) -> Complex<f64> {
     let omega = 2.0 * PI / period_s;
     let part = |weight: fn(f64) -> f64| -> f64 {
-        let piece = |pair: &[f64]| integrate(|t| x(t) * weight(omega * t), pair[0], pair[1], 1e-13, 200).value;
+        let piece = |pair: &[f64]| integrate(&mut |t| x(t) * weight(omega * t), pair[0], pair[1], 1e-13, 200).value;
         ends.windows(2).map(piece).sum::<f64>() * 2.0 / period_s
     };
     Complex::new(part(libm::cos), -part(libm::sin))

@@ -58,7 +58,7 @@ fn mean_over_sweep(
             let x = sweep.bias() + sweep.amplitude() * libm::sin(angle);
             of(theta(angle), characteristic.output(x, branch, sweep))
         };
-        angles.windows(2).map(|piece| integrate(integrand, piece[0], piece[1], 1e-13, 1000).value).sum::<f64>()
+        angles.windows(2).map(|piece| integrate(&mut &integrand, piece[0], piece[1], 1e-13, 1000).value).sum::<f64>()
     };
     (half(Branch::Rising, |angle| angle) + half(Branch::Falling, |angle| PI - angle)) / (2.0 * PI)
 }

@@ -1,7 +1,8 @@
 //! Errors of the first-harmonic method on the exact symmetric orbits, enclosed over ranges of their single number `g`.
 
 use crate::identify::iso::{Oscillation, Parameters};
-use crate::numeric::{Expression, Interval, Real};
+use crate::numeric::{Interval, Real};
+use crate::proof::Expression;
 
 /// A drag law, with the coordinate that unrolls its orbits: `z` of `g = z - tanh z` for linear drag, `t` of
 /// `g = ln(cosh t)/2` for quadratic drag (`tanh t = y*`).

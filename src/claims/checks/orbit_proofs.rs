@@ -7,10 +7,11 @@ use super::{
     sample,
 };
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::{Expression, Interval, Real};
+use crate::numeric::{Interval, Real};
 use crate::orbit::theorem::{self, BUDGET, Theorem};
 use crate::orbit::{limit_cycle, return_slope};
 use crate::plant::DragAxis;
+use crate::proof::Expression;
 use crate::proof::inequality::Inequality;
 use crate::proof::margin::Margin;
 use crate::proof::margin::{VARIABLES, VariableBox};

@@ -105,7 +105,7 @@ type WithEvenPart = fn(f64, f64) -> f64;
 /// Mean of `function` over a sinusoid of amplitude `amplitude`.
 fn mean(function: WithEvenPart, even: f64, bias: f64, amplitude: f64) -> f64 {
     let integrand = |angle: f64| function(bias + amplitude * libm::sin(angle), even);
-    integrate(integrand, -core::f64::consts::FRAC_PI_2, core::f64::consts::FRAC_PI_2, 1e-14, 1000).value
+    integrate(&mut &integrand, -core::f64::consts::FRAC_PI_2, core::f64::consts::FRAC_PI_2, 1e-14, 1000).value
         / core::f64::consts::PI
 }
 

@@ -40,7 +40,8 @@ impl Tone {
             self.alpha * acceleration + self.linear * speed + self.quadratic * speed * speed.abs()
         };
         let coefficient = |weight: fn(f64) -> f64| {
-            let piece = |from, to| by_quadrature(|angle| force(angle) * weight(angle), from, to, 1e-14, 1000).value;
+            let piece =
+                |from, to| by_quadrature(&mut |angle| force(angle) * weight(angle), from, to, 1e-14, 1000).value;
             (piece(-0.5 * PI, 0.5 * PI) + piece(0.5 * PI, 1.5 * PI)) / (PI * self.amplitude)
         };
         (coefficient(libm::sin), coefficient(libm::cos))

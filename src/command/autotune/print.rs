@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use super::form::GainForm;
 use super::{Autotuned, CommandError};
-use crate::numeric::{Uncertain, significant};
-use crate::report::{Document, ProcessPage};
+use crate::numeric::significant;
+use crate::report::{Document, ProcessPage, Uncertain};
 
 impl Autotuned {
     /// The gains to type in a form; `None` without gains.

@@ -50,11 +50,15 @@ fn scaled_exp(x: f64, halved: bool) -> Interval {
     mantissa * Interval::point(power_of_two(k / 2)) * Interval::point(power_of_two(k - k / 2))
 }
 
-fn exp_m1_at(x: f64) -> Interval {
+pub(super) fn exp_at(x: f64) -> Interval {
+    scaled_exp(x, false)
+}
+
+pub(super) fn exp_m1_at(x: f64) -> Interval {
     /// Up to this exponent `2^k - 1` is a double.
     const EXACT: i32 = 53;
     if x.abs() > 37.0 {
-        return scaled_exp(x, false) - Interval::ONE;
+        return exp_at(x) - Interval::ONE;
     }
     let (k, r) = reduce(x);
     let reduced = exp_m1_reduced(r);
@@ -83,7 +87,7 @@ pub(super) fn ln_1p_reduced(t: Interval, guess: f64) -> Interval {
     Interval::point(guess) + Interval { lo: (at_lower / (Interval::ONE + at_lower)).lo, hi: d.hi }
 }
 
-fn ln_at(x: f64) -> Interval {
+pub(super) fn ln_at(x: f64) -> Interval {
     if x == f64::INFINITY {
         return Interval { lo: 0.0, hi: x };
     }
@@ -98,7 +102,7 @@ fn ln_at(x: f64) -> Interval {
     Interval::point(k * LN_2_HIGH) + rest
 }
 
-fn ln_1p_at(t: f64) -> Interval {
+pub(super) fn ln_1p_at(t: f64) -> Interval {
     if (-0.29..=0.41).contains(&t) {
         ln_1p_reduced(Interval::point(t), libm::log1p(t))
     } else {
@@ -111,7 +115,7 @@ fn odd(x: f64, at_positive: impl Fn(f64) -> Interval) -> Interval {
     if x < 0.0 { -at_positive(-x) } else { at_positive(x) }
 }
 
-fn sinh_at(x: f64) -> Interval {
+pub(super) fn sinh_at(x: f64) -> Interval {
     odd(x, |x| {
         if x < 1.0 {
             let e = exp_m1_at(x);
@@ -123,13 +127,13 @@ fn sinh_at(x: f64) -> Interval {
     })
 }
 
-fn cosh_at(x: f64) -> Interval {
+pub(super) fn cosh_at(x: f64) -> Interval {
     let half = scaled_exp(x, true);
     let value = half + Interval::point(0.25) / half;
     Interval { lo: value.lo.max(1.0), hi: value.hi }
 }
 
-fn tanh_at(x: f64) -> Interval {
+pub(super) fn tanh_at(x: f64) -> Interval {
     odd(x, |x| {
         if x > 22.0 {
             return Interval { lo: 1_f64.next_down(), hi: 1.0 }; // 1 - tanh 22 < 2 exp(-44) < 2^-53
@@ -140,41 +144,9 @@ fn tanh_at(x: f64) -> Interval {
     })
 }
 
-fn atanh_at(x: f64) -> Interval {
+pub(super) fn atanh_at(x: f64) -> Interval {
     odd(x, |x| {
         let x = Interval::point(x);
         (x * TWO / (Interval::ONE - x)).increasing(ln_1p_at) / TWO
     })
-}
-
-pub(super) fn exp(x: Interval) -> Interval {
-    x.increasing(|x| scaled_exp(x, false))
-}
-
-pub(super) fn exp_m1(x: Interval) -> Interval {
-    x.increasing(exp_m1_at)
-}
-
-pub(super) fn ln(x: Interval) -> Interval {
-    if x.lo > 0.0 { x.increasing(ln_at) } else { Interval::ENTIRE }
-}
-
-pub(super) fn ln_1p(x: Interval) -> Interval {
-    if x.lo > -1.0 { x.increasing(ln_1p_at) } else { Interval::ENTIRE }
-}
-
-pub(super) fn sinh(x: Interval) -> Interval {
-    x.increasing(sinh_at)
-}
-
-pub(super) fn cosh(x: Interval) -> Interval {
-    x.abs().increasing(cosh_at)
-}
-
-pub(super) fn tanh(x: Interval) -> Interval {
-    x.increasing(tanh_at)
-}
-
-pub(super) fn atanh(x: Interval) -> Interval {
-    if x.is_interior_to(Interval::UNIT) { x.increasing(atanh_at) } else { Interval::ENTIRE }
 }

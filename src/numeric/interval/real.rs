@@ -4,14 +4,22 @@ use super::rounding::{product, square_root};
 use super::{Interval, circular, exponential};
 use crate::numeric::Real;
 
-macro_rules! from_module {
-    ($module:ident: $($function:ident)+) => {
-        $(
-            fn $function(self) -> Self {
-                $module::$function(self)
-            }
-        )+
-    };
+macro_rules! circular {
+    ($($function:ident)+) => { $(
+        fn $function(self) -> Self {
+            circular::$function(self)
+        }
+    )+ };
+}
+
+/// Increasing functions by their enclosures at a point, on the whole line or above a bound.
+macro_rules! increasing {
+    ($($function:ident by $at_point:ident $(above $least:literal)?),+) => { $(
+        fn $function(self) -> Self {
+            $( if self.lo <= $least { return Self::ENTIRE; } )?
+            self.increasing(exponential::$at_point)
+        }
+    )+ };
 }
 
 impl Real for Interval {
@@ -113,6 +121,14 @@ impl Real for Interval {
         }
         circular::minus_own_sine(self, difference)
     }
-    from_module!(circular: sin cos tan asin acos atan);
-    from_module!(exponential: exp exp_m1 ln ln_1p sinh cosh tanh atanh);
+    circular!(sin cos tan asin acos atan);
+    increasing!(
+        exp by exp_at, exp_m1 by exp_m1_at, ln by ln_at above 0.0, ln_1p by ln_1p_at above -1.0, sinh by sinh_at, tanh by tanh_at
+    );
+    fn cosh(self) -> Self {
+        self.abs().increasing(exponential::cosh_at)
+    }
+    fn atanh(self) -> Self {
+        if self.is_interior_to(Self::UNIT) { self.increasing(exponential::atanh_at) } else { Self::ENTIRE }
+    }
 }

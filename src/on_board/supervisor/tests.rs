@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use super::*;
-use crate::numeric::rounded::{Compared, Double, Rounded, every_outcome};
+use crate::numeric::rounded::order::{Compared, every_outcome};
+use crate::numeric::rounded::{Double, Rounded};
 use crate::numeric::{Interval, Real};
 use crate::on_board::Coordinate;
 

@@ -401,9 +401,6 @@ impl Component for Rational {
             _ => Self::UNKNOWN,
         }
     }
-    fn exp_from_exp_m1(self, _: Self) -> Self {
-        self.exp()
-    }
     fn floor_is_constant(self) -> bool {
         false
     }

@@ -6,8 +6,8 @@ use crate::identify::{
     BudgetEntry, Caution, ConfidenceInterval, DragLaw, DragVerdict, Estimate, Identification, Prediction, Reason,
     Reported, Source, Trust,
 };
-use crate::numeric::{Uncertain, significant};
-use crate::report::{Cell, Table};
+use crate::numeric::significant;
+use crate::report::{Cell, Table, Uncertain};
 
 /// Digits that a measured number is shown with, after the first.
 const DIGITS: u8 = 3;

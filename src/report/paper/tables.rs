@@ -1,11 +1,12 @@
 //! The regenerated paper's tables.
 
 use super::Reproduction;
-use crate::numeric::{Expression, Interval};
+use crate::numeric::Interval;
 use crate::paper::consistency::Verdict;
 use crate::paper::figure15::CRITERIA;
 use crate::paper::quantisation::{curves, figure14};
 use crate::paper::{table2, table3, table4};
+use crate::proof::Expression;
 use crate::report::{Cell, ReportError, Table};
 
 /// Units of Table 4's parameters.

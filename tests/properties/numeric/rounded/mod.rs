@@ -1,6 +1,8 @@
 //! Rounding error of a formula: intervals of the exact and of the floating-point value, and a bound of their distance.
 //!
-//! A formula written over [`Real`](super::Real) runs in [`Rounded`] as it does in a float, and every operation adds its
+//! Compiled twice, as `numeric::rounded` of the library's own tests and of the property tests.
+//!
+//! A formula written over [`Real`] runs in [`Rounded`] as it does in a float, and every operation adds its
 //! largest rounding error: half a unit in the last place, or a function's own error, on top of the errors that came in
 //! times the slope of the operation. The result holds for all floats within the given intervals at once.
 //!
@@ -8,27 +10,21 @@
 //! |---|---|
 //! | `format` | the two formats, and what their functions are known to keep |
 //! | `functions` | the functions of `Real` and `Special` |
+//! | `order` | formulas with comparisons |
+//! | `testing` | a formula's proved bounds against 42 digits |
+#![allow(dead_code, reason = "either crate uses its part")]
 
-mod format;
+pub(crate) mod format;
 mod functions;
-#[cfg(all(test, feature = "std"))]
-#[path = "../../../tests/properties/rounded/order.rs"]
 pub(crate) mod order;
-#[cfg(all(test, feature = "std"))]
-#[path = "../../../tests/properties/rounded/testing.rs"]
-#[allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::cast_possible_truncation, reason = "a test may panic")]
 pub(crate) mod testing;
-#[cfg(test)]
-mod tests;
 
 use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-pub use format::{Double, Format, Single, Units};
-#[cfg(all(test, feature = "std"))]
-pub(crate) use order::{Compared, every_outcome};
+pub(crate) use format::{Double, Format, Single};
 
-use super::{Interval, Real};
+use crate::numeric::{Interval, Real};
 
 /// A number of a formula: where its exact value lies, where its float lies, and how far apart they can be.
 ///
@@ -36,7 +32,7 @@ use super::{Interval, Real};
 /// numbers, `float` the formula's value in the format, and `error` is at least their distance. The format's functions are assumed as exact
 /// as in [`Format`]. An infinite `error` is no bound: an argument may lie outside its domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rounded<F> {
+pub(crate) struct Rounded<F> {
     exact: Interval,
     float: Interval,
     error: f64,
@@ -55,19 +51,19 @@ impl<F: Format> Rounded<F> {
 
     /// Any float of the format within an interval.
     #[must_use]
-    pub fn input(interval: Interval) -> Self {
+    pub(crate) fn input(interval: Interval) -> Self {
         Self { exact: interval, float: interval, error: 0.0, format: PhantomData }
     }
 
     /// The exact value's interval.
     #[must_use]
-    pub fn exact(self) -> Interval {
+    pub(crate) fn exact(self) -> Interval {
         self.exact
     }
 
     /// A bound of the distance between exact value and float; infinite where there is none.
     #[must_use]
-    pub fn error(self) -> f64 {
+    pub(crate) fn error(self) -> f64 {
         self.error
     }
 

@@ -2,8 +2,7 @@
 
 use super::{Format, Rounded, farthest, up};
 use crate::numeric::power::PowerMoments;
-use crate::numeric::real::own_sine_series;
-use crate::numeric::{Interval, Real, Special};
+use crate::numeric::{Interval, Real, Special, own_sine_series};
 
 /// Relative error of the series of `x - sin(x)` for x < 1: truncation, and rounding of its constants to double precision.
 const SERIES: f64 = 3e-16;

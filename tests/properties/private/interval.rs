@@ -1,6 +1,6 @@
 //! What the public functions hide: constants, remainders of series, and guesses that are wrong.
 
-#[path = "../../../tests/properties/oracle.rs"]
+#[path = "../oracle.rs"]
 mod oracle;
 
 use oracle::{Bracket, Down, Up, at, bracket};

@@ -3,7 +3,7 @@
 use core::fmt::Debug;
 
 /// A binary floating-point format, rounded to nearest.
-pub trait Format: Copy + Debug + PartialEq + Send + Sync + 'static {
+pub(crate) trait Format: Copy + Debug + PartialEq + Send + Sync + 'static {
     /// Half the distance from 1 to the next larger number.
     const UNIT: f64;
     /// Half the least number above zero.
@@ -20,32 +20,32 @@ pub trait Format: Copy + Debug + PartialEq + Send + Sync + 'static {
 
 /// Errors of functions in units in the last place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Units {
+pub(crate) struct Units {
     /// Sine and cosine.
-    pub sin_cos: f64,
+    pub(crate) sin_cos: f64,
     /// Tangent.
-    pub tan: f64,
+    pub(crate) tan: f64,
     /// Inverse sine, at arguments up to 1.
-    pub asin: f64,
+    pub(crate) asin: f64,
     /// Inverse tangent.
-    pub atan: f64,
+    pub(crate) atan: f64,
     /// Exponential function, and less 1.
-    pub exp: f64,
+    pub(crate) exp: f64,
     /// Natural logarithm, and of 1 more.
-    pub ln: f64,
+    pub(crate) ln: f64,
     /// Hyperbolic sine, cosine, tangent, and inverse tangent.
-    pub hyperbolic: f64,
+    pub(crate) hyperbolic: f64,
     /// A power.
-    pub pow: f64,
+    pub(crate) pow: f64,
 }
 
 /// f64.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Double;
+pub(crate) struct Double;
 
 /// f32.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Single;
+pub(crate) struct Single;
 
 impl Format for Double {
     const UNIT: f64 = f64::EPSILON / 2.0;

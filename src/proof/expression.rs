@@ -5,7 +5,7 @@ mod print;
 
 use core::ops::Neg;
 
-use super::{Interval, Real};
+use crate::numeric::{Interval, Real};
 
 /// A formula over named quantities, each within an interval.
 ///
@@ -18,7 +18,8 @@ use super::{Interval, Real};
 /// Its nodes are never freed (an arithmetic is `Copy`): meant for formulas of a page, not for long computations.
 ///
 /// ```
-/// use selfosc::numeric::{Expression, Interval, Real};
+/// use selfosc::numeric::{Interval, Real};
+/// use selfosc::proof::Expression;
 /// let level = Expression::symbol("C", "C", Interval::new(1.0, 2.0).unwrap());
 /// let amplitude = Expression::symbol("X_m", "X_m", Interval::new(1.0, 2.0).unwrap());
 /// let gain = Expression::from_f64(4.0) * level.max(Real::zero()) / (Expression::pi() * amplitude);

@@ -1,6 +1,7 @@
 //! The bounds against floats: every operation on random boxes, and an arithmetic that forgets most of its rounding.
 
-use super::{Double, Format, Rounded, Single};
+use crate::numeric::rounded::format::Units;
+use crate::numeric::rounded::{Double, Format, Rounded, Single};
 use crate::numeric::{Interval, Real};
 
 /// Every operation, of numbers near one; steep places and branches within.
@@ -83,7 +84,7 @@ impl Format for Careless {
     const UNIT: f64 = Single::UNIT / 8.0;
     const TINY: f64 = Single::TINY;
     const LARGEST: f64 = Single::LARGEST;
-    const FUNCTIONS: super::Units = Single::FUNCTIONS;
+    const FUNCTIONS: Units = Single::FUNCTIONS;
     fn nearest(value: f64) -> f64 {
         Single::nearest(value)
     }

@@ -1,9 +1,9 @@
 //! Sums and products of expressions in a form that shows cancellation.
 
-use core::ops::{Add, Div, Mul, Neg, Sub};
+use core::ops::{Add, Div, Mul};
 
 use super::{Expression, Node, Product};
-use crate::numeric::Real;
+use crate::numeric::{Real, operators};
 
 impl Expression {
     fn product(self) -> Product {
@@ -124,18 +124,10 @@ impl Add for Expression {
     }
 }
 
-impl Sub for Expression {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl Neg for Expression {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self::from_f64(-1.0) * self
-    }
+operators! {
+    [Expression]
+    Neg::neg = |a| Self::from_f64(-1.0) * a;
+    Sub::sub = |a, b| a + -b;
 }
 
 impl Mul for Expression {
