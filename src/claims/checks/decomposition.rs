@@ -23,7 +23,7 @@ const VARIABLES: usize = PARAMETERS + 3;
 
 /// A member's output less the sum of its kernels, on one branch, at these settings and at sweeps and places that lie on every
 /// side of all breakpoints.
-fn is_sum<C>(distortion: Distortion, branch: Branch, settings: &[&[f64]]) -> Verdict
+pub fn is_sum<C>(distortion: Distortion, branch: Branch, settings: &[&[f64]]) -> Verdict
 where
     C: Catalogued<Rational> + PiecewiseLinear<Number = Rational>,
 {
@@ -53,11 +53,11 @@ where
 }
 
 /// The proof of a member on a branch.
-type MemberProof = fn(Distortion, Branch) -> Verdict;
+pub type MemberProof = fn(Distortion, Branch) -> Verdict;
 
 /// Each member with settings in every order that its parameters can have; a polyline of up to four points, the bias in each of
 /// its segments.
-const MEMBERS: [(&str, MemberProof); 14] = [
+pub const MEMBERS: [(&str, MemberProof); 14] = [
     (Relay::<Rational>::NAME, |d, b| is_sum::<Relay<_>>(d, b, &[&[0.7]])),
     (RelayDeadZone::<Rational>::NAME, |d, b| is_sum::<RelayDeadZone<_>>(d, b, &[&[0.7, 1.3]])),
     (RelayHysteresis::<Rational>::NAME, |d, b| is_sum::<RelayHysteresis<_>>(d, b, &[&[0.7, 1.3, 0.2]])),
@@ -93,7 +93,7 @@ const MEMBERS: [(&str, MemberProof); 14] = [
 ];
 
 /// Every member on both branches.
-pub(super) fn decomposition(distortion: Distortion) -> Verdict {
+pub fn decomposition(distortion: Distortion) -> Verdict {
     let both =
         |(_, proof): &(&str, MemberProof)| proof(distortion, Branch::Rising).and(|| proof(distortion, Branch::Falling));
     Verdict::all(MEMBERS.iter().map(both))
@@ -121,7 +121,7 @@ fn output(df: DescribingFunction<Rational>, amplitude: Rational) -> [Rational; 3
 /// Every height, bias and amplitude from a unit kernel on the unit sweep, on the rising branch and above: the falling
 /// branch turns the cosine component round, a kernel below is the kernel above its mirror image with the sine component
 /// turned round, and a kernel on both branches is the sum.
-pub(super) fn scaling(distortion: Distortion) -> Verdict {
+pub fn scaling(distortion: Distortion) -> Verdict {
     let one = |make: RationalKernel, side: Side, branches: Branches, is_ramp: bool| {
         let points = [0.25, -0.25, 0.75, -0.75].map(|u| [u, 0.3, 2.0, 0.7]);
         exactly(SCALING, distortion, &points, |[u, bias, amplitude, height]: [Rational; 4], factor: Rational| {
@@ -153,7 +153,7 @@ pub(super) fn scaling(distortion: Distortion) -> Verdict {
 
 /// With its breakpoint beyond the sweep a kernel is a straight line `c + s x` on each branch that counts, with mean `c + s B`,
 /// sine component `s X` and, on a branch alone, cosine component `4 (c + s B)/pi` of either sign: half of each on a branch.
-pub(super) fn beyond(distortion: Distortion) -> Verdict {
+pub fn beyond(distortion: Distortion) -> Verdict {
     let one = |make: RationalKernel, line: fn(Side, bool) -> [f64; 2], side: Side, branches: Branches| {
         let points = [[4.0, 0.3, 2.0, 0.7], [-4.0, 0.3, 2.0, 0.7]];
         exactly(BEYOND, distortion, &points, |[at, bias, amplitude, height]: [Rational; 4], factor: Rational| {
@@ -188,85 +188,4 @@ pub(super) fn beyond(distortion: Distortion) -> Verdict {
         })
     });
     Verdict::all(all)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{
-        BEYOND, Branch, Catalogued, DECOMPOSITION, DeadZone, Distortion, Kernel, MEMBERS, PiecewiseLinear, Rational,
-        SCALING, Sinusoid, beyond, decomposition, is_sum, number, scaling,
-    };
-    use crate::describing::CATALOGUE;
-    use crate::nonlinearity::{NonlinearityError, ParameterSpec};
-
-    /// A dead zone whose kernels are off by a millionth: each in its place, or a single kernel in its slope.
-    struct Off<const SLOPE: bool>(DeadZone<Rational>);
-
-    impl<const SLOPE: bool> Catalogued<Rational> for Off<SLOPE> {
-        const NAME: &'static str = "off";
-        const PARAMETERS: &'static [ParameterSpec] = DeadZone::<Rational>::PARAMETERS;
-        const ORDERED: &'static [(&'static str, &'static str)] = &[];
-        const SPEC: &'static str = "";
-
-        fn from_values(values: &[Rational]) -> Result<Self, NonlinearityError> {
-            DeadZone::from_values(values).map(Self)
-        }
-    }
-
-    impl<const SLOPE: bool> PiecewiseLinear for Off<SLOPE> {
-        type Number = Rational;
-
-        fn value(&self, x: Rational, branch: Branch, sweep: &Sinusoid<Rational>) -> Rational {
-            self.0.value(x, branch, sweep)
-        }
-        fn kernels(&self, sweep: &Sinusoid<Rational>, mut report: impl FnMut(Kernel<Rational>)) {
-            let off = number(1.000_001);
-            self.0.kernels(sweep, |kernel| {
-                report(match kernel {
-                    Kernel::Ramp { at, slope, side, branches } if SLOPE => {
-                        Kernel::Ramp { at, slope: slope * off, side, branches }
-                    }
-                    Kernel::Ramp { at, slope, side, branches } => Kernel::Ramp { at: at * off, slope, side, branches },
-                    other => other,
-                })
-            });
-        }
-    }
-
-    #[test]
-    fn a_millionth_is_seen() {
-        let settings: [&[f64]; 1] = [&[0.7, 1.3]];
-        for branch in [Branch::Rising, Branch::Falling] {
-            assert!(is_sum::<DeadZone<_>>(Distortion::None, branch, &settings).holds());
-            assert!(!is_sum::<Off<false>>(Distortion::None, branch, &settings).holds());
-            assert!(!is_sum::<Off<true>>(Distortion::None, branch, &settings).holds());
-        }
-    }
-
-    #[test]
-    fn every_piecewise_linear_member_is_decomposed() {
-        const SMOOTH: [&str; 6] = ["power", "polynomial", "sine", "sinh", "arctan", "tanh"];
-        let names: Vec<_> = CATALOGUE.iter().map(|entry| entry.name).filter(|name| !SMOOTH.contains(name)).collect();
-        let mut proved = MEMBERS.map(|(name, _)| name).to_vec();
-        proved.sort_by_key(|name| names.iter().position(|known| known == name));
-        assert_eq!(proved, names);
-        for (name, proof) in MEMBERS {
-            for branch in [Branch::Rising, Branch::Falling] {
-                assert!(proof(Distortion::None, branch).holds(), "{name}, {branch:?}");
-                for false_one in Distortion::FALSE {
-                    assert!(!proof(false_one, branch).holds(), "{name}, {branch:?}, {false_one:?}");
-                }
-            }
-        }
-        assert!(decomposition(Distortion::None).holds(), "{}", DECOMPOSITION.name);
-    }
-
-    #[test]
-    fn kernels_scale_and_end() {
-        assert!(scaling(Distortion::None).holds(), "{}", SCALING.name);
-        assert!(beyond(Distortion::None).holds(), "{}", BEYOND.name);
-        for false_one in Distortion::FALSE {
-            assert!(!scaling(false_one).holds() && !beyond(false_one).holds(), "{false_one:?}");
-        }
-    }
 }

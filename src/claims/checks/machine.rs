@@ -131,7 +131,7 @@ impl ObservedMotion {
 /// The machine under its clock.
 #[derive(Clone, Copy)]
 pub(super) struct Machine {
-    supervisor: Supervisor<f64>,
+    pub(super) supervisor: Supervisor<f64>,
     defect: Defect,
     /// Command upon the last event.
     pub(super) command: f64,
@@ -163,27 +163,12 @@ impl Machine {
         Some(Self { supervisor, defect, command, time_s: 0.0, seen: None, motion })
     }
 
-    pub(super) fn phase(&self) -> Phase {
-        self.supervisor.phase()
-    }
-    pub(super) fn position(&self) -> Option<f64> {
-        self.supervisor.position()
-    }
-    pub(super) fn half_width(&self) -> f64 {
-        self.supervisor.half_width()
-    }
-    pub(super) fn switched_s(&self) -> Option<f64> {
-        self.supervisor.switched_s()
-    }
-    pub(super) fn farthest(&self) -> Option<f64> {
-        self.supervisor.farthest()
-    }
     fn key(&self) -> (Key, [u64; 4]) {
         let ObservedMotion { anchor, moved_s, longest_s, last_s, .. } = self.motion;
         (self.supervisor.key(), [anchor, moved_s, longest_s, last_s].map(f64::to_bits))
     }
     pub(super) fn running(&self) -> bool {
-        self.phase() == Phase::Running
+        self.supervisor.phase() == Phase::Running
     }
 
     /// The machine after an event.
@@ -202,8 +187,8 @@ impl Machine {
                 self.time_s = if self.seen.is_some() { self.time_s + interval_s } else { 0.0 };
                 let before = self.supervisor;
                 let _ = self.supervisor.step(reading, self.time_s, &mut Says(observation));
-                let over = matches!(self.phase(), Phase::Failed(fault) if fault.code() == "overtime");
-                let forgiven = self.defect == Defect::Forgives && matches!(self.phase(), Phase::Failed(_));
+                let over = matches!(self.supervisor.phase(), Phase::Failed(fault) if fault.code() == "overtime");
+                let forgiven = self.defect == Defect::Forgives && matches!(self.supervisor.phase(), Phase::Failed(_));
                 if (over && self.defect == Defect::Restarts || forgiven)
                     && let Ok(fresh) = Supervisor::new(*self.supervisor.protocol())
                 {
@@ -221,7 +206,7 @@ impl Machine {
 
     /// Follows the motion over a step.
     fn follow(&mut self, before: &Supervisor<f64>) {
-        let Some(position) = self.position().filter(|_| self.running()) else { return };
+        let Some(position) = self.supervisor.position().filter(|_| self.running()) else { return };
         let (protocol, time_s, motion) = (self.supervisor.protocol(), self.time_s, &mut self.motion);
         let high = |supervisor: &Supervisor<f64>| supervisor.command() > protocol.neutral_command;
         if self.seen.is_none() || motion.gone(protocol, before.half_width(), position) {
@@ -242,7 +227,7 @@ impl Machine {
     /// The machine's command now, spoilt by its defect.
     fn answer(&self) -> f64 {
         let (command, protocol) = (self.supervisor.command(), self.supervisor.protocol());
-        let Some(position) = self.position().filter(|_| self.running()) else { return command };
+        let Some(position) = self.supervisor.position().filter(|_| self.running()) else { return command };
         let raised = protocol.relay_level * protocol.factor.powi(i32::from(self.supervisor.attempt()) - 1);
         let with = |level: f64, positive: bool| protocol.neutral_command + if positive { level } else { -level };
         match self.defect {
@@ -256,8 +241,19 @@ impl Machine {
     }
 }
 
-/// A property that must hold of a machine and of all its successors; the successor that shows that it does not, or none for the machine.
-pub(super) type Property = fn(&Lattice, &Machine, &[(MachineEvent, Machine)]) -> Result<(), Option<usize>>;
+/// A property of the machine: of each state with its successors, and of each step.
+#[derive(Clone, Copy)]
+pub(super) struct Property {
+    pub(super) state: fn(&Lattice, &Machine, &[(MachineEvent, Machine)]) -> bool,
+    pub(super) step: fn(&Lattice, &Machine, MachineEvent, &Machine) -> bool,
+}
+
+impl Property {
+    /// Of steps alone.
+    pub(super) const fn step(step: fn(&Lattice, &Machine, MachineEvent, &Machine) -> bool) -> Self {
+        Self { state: |_, _, _| true, step }
+    }
+}
 
 /// States beyond this are not waited for.
 const MOST_STATES: usize = 3_000_000;
@@ -280,8 +276,9 @@ fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict
         let machine = states[index].0;
         successors.clear();
         successors.extend(events(lattice, &machine).map(|event| (event, machine.after(event))));
-        if let Err(offender) = property(lattice, &machine, &successors) {
-            let mut path = Vec::from_iter(offender.map(|offender| successors[offender]));
+        let offender = successors.iter().find(|(event, after)| !(property.step)(lattice, &machine, *event, after));
+        if offender.is_some() || !(property.state)(lattice, &machine, &successors) {
+            let mut path = Vec::from_iter(offender.copied());
             let mut at = index;
             while at != 0 {
                 path.push((states[at].2, states[at].0));

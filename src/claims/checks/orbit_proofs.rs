@@ -3,8 +3,7 @@
 use super::algebra::{exactly, number};
 use super::method_bias::SymmetricOrbit;
 use super::{
-    Budget, Case, ClaimDomain, ClaimPart, ClaimVariable, Distortion, Evidence, Hypothesis, Verdict, Witness, claim,
-    sample,
+    Case, ClaimDomain, ClaimPart, ClaimVariable, Distortion, Draw, Evidence, Hypothesis, Verdict, Witness, claim, drawn,
 };
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Expression, Interval, Real};
@@ -112,16 +111,14 @@ const FALSE_OVERSHOOT_LINEAR: Inequality = Inequality {
 };
 
 /// Under a disturbance above the level there is no limit cycle.
-fn beyond_the_level(budget: Budget) -> Verdict {
-    sample(budget, |draw| {
-        let (level, share) = (draw.uniform("level", 0.1, 1.0), draw.uniform("disturbance_over_level", 1.0, 2.0));
-        let axis = DragAxis::mixed(1.0, 0.5, 0.5).and_then(|axis| axis.with_disturbance(share * level));
-        let (axis, relay) = (axis.ok()?, RelayHysteresis::new(level, 0.2, 0.0).ok()?);
-        Some(Case::truth(limit_cycle(&axis, &relay).is_ok()))
-    })
+fn beyond_the_level(draw: &mut Draw) -> Option<Case> {
+    let (level, share) = (draw.uniform("level", 0.1, 1.0), draw.uniform("disturbance_over_level", 1.0, 2.0));
+    let axis = DragAxis::mixed(1.0, 0.5, 0.5).and_then(|axis| axis.with_disturbance(share * level));
+    let (axis, relay) = (axis.ok()?, RelayHysteresis::new(level, 0.2, 0.0).ok()?);
+    Some(Case::truth(limit_cycle(&axis, &relay).is_ok()))
 }
 
-const BELOW_LEVEL: Hypothesis = Hypothesis::needed("disturbance-below-level", beyond_the_level);
+const BELOW_LEVEL: Hypothesis = Hypothesis::needed("disturbance-below-level", drawn!(beyond_the_level()));
 
 /// Claims that inequalities establish: theorem, false inequality, parts of the domain, further proofs, hypotheses.
 macro_rules! enclosed {
