@@ -66,18 +66,6 @@ pub struct Hypothesis {
     pub counterexample: Option<Checker>,
 }
 
-impl Hypothesis {
-    /// The statement needs it: this checker refutes the statement without it.
-    pub(crate) const fn needed(id: &'static str, counterexample: Checker) -> Self {
-        Self { id, counterexample: Some(counterexample) }
-    }
-
-    /// Without a case that violates it alone.
-    pub(crate) const fn stated(id: &'static str) -> Self {
-        Self { id, counterexample: None }
-    }
-}
-
 /// A definition, lemma, theorem or identity with its checkers; its page has the rest.
 #[derive(Clone, Copy, Debug)]
 pub struct Claim {
@@ -269,7 +257,7 @@ impl Claim {
 ///
 /// Its rows: how many of the cases asked for are drawn; the statement as printed and as corrected, a false variant and the
 /// statement without each hypothesis, as checks of a drawn case with their arguments; hypotheses without such a check; the
-/// proof, or functions that vanish exactly, or equations, on a part of the domain, in the cases where the points lie.
+/// proof, or functions that vanish exactly on a part of the domain, in the cases where the points lie.
 macro_rules! claim {
     ($constant:ident = $id:literal $kind:ident $statement:literal;
         $(cases $cases:expr;)?
@@ -281,7 +269,6 @@ macro_rules! claim {
         $(theorem $theorem:expr;)?
         $(proof $proof:expr;)?
         $(exactly $($functions:ident on $part:literal at $points:expr),+;)?
-        $(equal $($equations:ident on $equal_part:literal at $equal_points:expr),+;)?
         $(not_proved $why:expr;)?
     ) => {
         claim! { $constant = $id $kind $statement {
@@ -292,19 +279,16 @@ macro_rules! claim {
             ),)?
             falsified: $crate::claims::registry::drawn!($falsified($($f),*)),
             hypotheses: &[
-                $($crate::claims::Hypothesis::needed(
-                    $needed,
-                    $crate::claims::registry::drawn!($without($($w),*))
-                ),)*
-                $($crate::claims::Hypothesis::stated($stated),)*
+                $($crate::claims::Hypothesis {
+                    id: $needed,
+                    counterexample: Some($crate::claims::registry::drawn!($without($($w),*))),
+                },)*
+                $($crate::claims::Hypothesis { id: $stated, counterexample: None },)*
             ],
             $(theorem: Some($theorem),)?
             $(proof: Some($proof),)?
             $(proof: Some(|distortion| $crate::claims::Verdict::all([$(
                 $crate::claims::checks::exactly($crate::claims::ClaimPart::named($part), distortion, $points, $functions)
-            ),+])),)?
-            $(proof: Some(|distortion| $crate::claims::Verdict::all([$(
-                $crate::claims::checks::equal($crate::claims::ClaimPart::named($equal_part), distortion, $equal_points, $equations)
             ),+])),)?
             $(not_proved: Some($why),)?
         } }

@@ -1,6 +1,9 @@
-//! The common part of the exact proofs: identities of rational functions, case by case.
+//! The common part of the proofs: identities of rational functions, case by case; identities of a single variable; numbers that vanish.
 
-use super::{ClaimPart, Distortion, Evidence, Verdict};
+use super::{ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, tolerance};
+use crate::describing::DescribingFunction;
+use crate::numeric::{Interval, Real};
+use crate::proof::identity::{IdentityJet, prove_zero};
 use crate::proof::polynomial::{Rational, prove_identity};
 
 /// That functions of the code vanish identically in the cases in which the points lie. They take the variables and the
@@ -23,19 +26,43 @@ pub(in crate::claims) fn exactly<const N: usize, const M: usize>(
 }
 
 pub(super) fn number(value: f64) -> Rational {
-    crate::numeric::Real::from_f64(value)
+    Rational::from_f64(value)
 }
 
-/// An equation: its name, its sides, and the scale of their rounding.
-pub(super) type Equation<T> = (&'static str, T, T, T);
+/// Cells of an identity of a single variable.
+const CELLS: usize = 5000;
 
-/// That the sides of equations are equal, in the same sense.
-pub(in crate::claims) fn equal<const N: usize, const M: usize>(
+/// That functions of a single variable vanish between the ends of the part's first side. They take the variable and the
+/// factor of the statement, 1 where it is to be proved.
+pub(super) fn identity<const M: usize>(
     part: ClaimPart,
     distortion: Distortion,
-    points: &[[f64; N]],
-    equations: impl Fn([Rational; N], Rational) -> Option<[Equation<Rational>; M]>,
+    f: impl Fn(IdentityJet, IdentityJet) -> [IdentityJet; M],
 ) -> Verdict {
-    let differences = |at, factor| Some(equations(at, factor)?.map(|(_, left, right, _)| left - right));
-    exactly(part, distortion, points, differences)
+    let Some(&ClaimVariable { from, to, .. }) = part.variables.first() else {
+        return Verdict::undecided("no variable");
+    };
+    match prove_zero(|x| f(x, distortion.at(x, [from, to])), from, to, tolerance::PROOF, CELLS) {
+        Ok(proved) => Verdict::Holds(Evidence::identity(part, proved.bound.value(), proved.boxes)),
+        Err(_) => Verdict::undecided("an identity of one variable, 5000 cells"),
+    }
+}
+
+/// That each number enclosed is zero to the tolerance.
+pub(super) fn zeros(part: ClaimPart, numbers: &[Interval], boxes: usize) -> Verdict {
+    let bound = numbers.iter().map(|number| number.magnitude()).fold(0.0, f64::max);
+    if bound <= tolerance::PROOF {
+        Verdict::Holds(Evidence::identity(part, bound, boxes))
+    } else {
+        Verdict::undecided("one enclosure")
+    }
+}
+
+/// A value that proves nothing, for an argument outside a domain.
+pub(super) fn unknown<T: Real>() -> T {
+    T::from_f64(f64::NAN)
+}
+
+pub(super) fn no_function<T: Real>() -> DescribingFunction<T> {
+    DescribingFunction { f0: unknown(), p: unknown(), q: unknown() }
 }

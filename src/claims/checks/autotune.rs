@@ -13,34 +13,21 @@ claim! {
     RELAY_FIRST_ORDER = "relay-first-order" Theorem
     "a first-order process or an integrator with dead time under a two-level relay: half-periods and extremes in closed form, once a command has stood for a dead time";
     cases |all| all.min(200);
-    corrected first_order_cycle(0.9, 1.0, SoughtOscillation::Slowest);
+    corrected first_order_cycle(0.9, 1.0, SLOWEST);
     // The output turns at the relay's level: no dead time beyond it.
-    false first_order_cycle(0.9, 0.0, SoughtOscillation::Slowest);
-    needs "levels-passed" first_order_cycle(1.1, 1.0, SoughtOscillation::Slowest);
-    needs "low-for-a-dead-time" first_order_cycle(0.9, 1.0, SoughtOscillation::Faster);
+    false first_order_cycle(0.9, 0.0, SLOWEST);
+    needs "levels-passed" first_order_cycle(1.1, 1.0, SLOWEST);
+    needs "low-for-a-dead-time" first_order_cycle(0.9, 1.0, FASTER);
     not_proved "half-periods are logarithms of the parameters: the program samples them, the kernel checks them";
 }
 
-/// The oscillation of the closed form, or a faster oscillation that a dead time allows.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum SoughtOscillation {
-    Slowest,
-    Faster,
-}
-
-impl SoughtOscillation {
-    /// Shares of the closed form's period between which it is looked for.
-    fn shares(self) -> [f64; 2] {
-        match self {
-            Self::Slowest => [0.9, 1.1],
-            Self::Faster => [0.05, 0.5],
-        }
-    }
-}
+/// Shares of the closed form's period between which its oscillation is looked for, or a faster oscillation that a dead time allows.
+const SLOWEST: [f64; 2] = [0.9, 1.1];
+const FASTER: [f64; 2] = [0.05, 0.5];
 
 /// The slowest enclosed oscillation of those looked for against the closed form. The levels reach up to `reach` of the
 /// outputs at which the process settles; `dead` is the share of the dead time in the closed form.
-fn first_order_cycle(draw: &mut Draw, reach: f64, dead: f64, searched: SoughtOscillation) -> Option<Case> {
+fn first_order_cycle(draw: &mut Draw, reach: f64, dead: f64, shares: [f64; 2]) -> Option<Case> {
     let (gain, time_s) = (draw.log_uniform("gain", 1e-1, 1e1), draw.log_uniform("time_s", 1e-1, 1e1));
     let dead_time_s = time_s * draw.log_uniform("dead_over_time", 0.1, 3.0);
     let (high, low) = (draw.log_uniform("high", 0.1, 10.0), -draw.log_uniform("low", 0.1, 10.0));
@@ -53,13 +40,11 @@ fn first_order_cycle(draw: &mut Draw, reach: f64, dead: f64, searched: SoughtOsc
     let (drag, stiffness) = (time_s / gain, if integrates { 0.0 } else { 1.0 / gain });
     let closed = FirstOrderProcess { drag, stiffness, dead_time_s: dead * dead_time_s, reverse: false };
     let Ok(cycle) = closed.relay_cycle(&relay, 0.0) else { return Some(Case::truth(false)) };
-    let (period_s, [least, most]) = (cycle.time_high_s + cycle.time_low_s, searched.shares());
+    let (period_s, [least, most]) = (cycle.time_high_s + cycle.time_low_s, shares);
     let plant = TransferFunction::new(&[1.0], &[drag, stiffness]).ok()?.with_delay(dead_time_s).ok()?;
     let found = orbits(&plant, &relay, Some(least * period_s..=most * period_s)).ok()?;
     // A faster oscillation need not be there.
-    let Some(orbit) = found.orbits.first() else {
-        return (searched == SoughtOscillation::Slowest).then(|| Case::truth(false));
-    };
+    let Some(orbit) = found.orbits.first() else { return (shares == SLOWEST).then(|| Case::truth(false)) };
     let size = cycle.maximum - cycle.minimum;
     let equations = [
         ("time_high_s", cycle.time_high_s, orbit.time_high_s.midpoint(), period_s),

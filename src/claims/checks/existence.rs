@@ -38,14 +38,18 @@ impl TanhLoop {
     }
 
     fn proved(&self) -> Option<ProvedOscillation> {
-        let [a, b] = self.poles;
-        let plant = TransferFunction::new(&[self.gain], &[1.0, a + b, a * b, 0.0]).ok()?;
+        let plant = with_integrator(self.poles, self.gain)?;
         let characteristic = Tanh::new(1.0, self.scale).ok()?;
         let balance = HarmonicBalance::new(&plant, |sweep| characteristic.describing_function(sweep)).ok()?;
         let first = *balance.intersections().ok()?.first()?;
         let odd = OddCharacteristic::from_catalogue("tanh", &[1.0, self.scale]).ok()?;
         LipschitzLoop::new(&plant, odd).ok()?.prove_near(first.amplitude, first.omega_rad_s).ok()
     }
+}
+
+/// `gain/(s (s + a)(s + b))`.
+pub(super) fn with_integrator([a, b]: [f64; 2], gain: f64) -> Option<TransferFunction> {
+    TransferFunction::new(&[gain], &[1.0, a + b, a * b, 0.0]).ok()
 }
 
 /// How far from its state at phase zero a loop `x = -gain/(s (s + a)(s + b)) n(x)` is a period later, in shares of the amplitudes of

@@ -6,6 +6,7 @@ use nalgebra::{Complex, DMatrix};
 
 use super::algebra::exactly;
 use super::existence::STEPS;
+use super::family::cycle;
 use super::vehicle_proofs::uncoupled_axis;
 use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::describing::ClosedForm;
@@ -124,10 +125,9 @@ fn heave(draw: &mut Draw, sign: f64, under: &Heave) -> Option<Case> {
     let buoyancy = weight + level * draw.uniform("buoyancy_over_weight_over_level", 0.3, under.surplus - 0.1);
     // Along the body's own axis a tilted vehicle feels only a part.
     let felt = (weight - buoyancy) * libm::cos(under.tilt_rad).powi(2) + external;
-    let axis = DragAxis::mixed(draw.uniform("alpha", 5.0, 10.0), draw.uniform("drag", 1.0, 5.0), under.quadratic);
-    let axis = axis.and_then(|axis| axis.with_disturbance(felt)).and_then(|axis| axis.with_delay_s(0.2));
-    let (axis, relay) = (axis.ok()?, RelayHysteresis::new(level, draw.uniform("half_width_m", 0.1, 0.5), 0.0).ok()?);
-    let Ok(cycle) = limit_cycle(&axis, &relay) else { return Some(Case::truth(false)) };
+    let (alpha, drag) = (draw.uniform("alpha", 5.0, 10.0), [draw.uniform("drag", 1.0, 5.0), under.quadratic]);
+    let relay = [level, draw.uniform("half_width_m", 0.1, 0.5)];
+    let Some(cycle) = cycle(alpha, drag, felt, 0.2, relay) else { return Some(Case::truth(false)) };
     let found = disturbance_from_times(level, cycle.time_positive_s, cycle.time_negative_s);
     let expected = sign * (external + weight - buoyancy);
     Some(draw.equal(("disturbance_n", found), expected, level, tolerance::CANCELLING))

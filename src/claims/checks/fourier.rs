@@ -97,7 +97,7 @@ claim! {
     false even_vanish(not_odd, unbiased);
     needs "odd" even_vanish(not_odd, unbiased);
     needs "unbiased" even_vanish(odd_nondecreasing, sweep);
-    proof prove_odd_harmonics;
+    proof |distortion| prove_odd_harmonics(distortion, RelayDeadZone::new);
 }
 
 claim! {
@@ -107,7 +107,9 @@ claim! {
     false even_vanish(not_odd, unbiased);
     needs "branches-odd" even_vanish(not_odd, unbiased);
     needs "unbiased" even_vanish(odd_hysteretic, sweep);
-    proof prove_odd_harmonics_hysteretic;
+    proof |distortion| prove_odd_harmonics(distortion, |level, half_width| {
+        RelayHysteresis::new(level, half_width, number(0.0))
+    });
 }
 
 /// Draws a characteristic.
@@ -198,21 +200,14 @@ fn square_completed(
     Some([left([mean + a, best_sine + b, best_cosine + c]) - left([mean, best_sine, best_cosine]) - more])
 }
 
-/// Without memory: the relay with a dead zone stands for `odd` as a property of the code's outputs.
-fn prove_odd_harmonics(distortion: Distortion) -> Verdict {
+/// Even orders cancel; and half a turn on the output is its negative, of a relay that stands for the parity as a property of
+/// the code's outputs.
+fn prove_odd_harmonics<C: Characteristic<Number = Rational>>(
+    distortion: Distortion,
+    made: fn(Rational, Rational) -> Result<C, NonlinearityError>,
+) -> Verdict {
     let half_turn = |[level, half_width, x]: [Rational; 3], factor: Rational| {
-        let (relay, sweep) =
-            (RelayDeadZone::new(level, half_width).ok()?, Sinusoid::new(number(0.0), number(9.0)).ok()?);
-        Some([relay.output(x, Branch::Rising, &sweep) + factor * relay.output(-x, Branch::Falling, &sweep)])
-    };
-    let points = [[1.0, 0.5, 2.0], [1.0, 0.5, -2.0], [1.0, 0.5, 0.2], [1.0, 0.5, -0.2]];
-    even_contributions_cancel(ClaimPart::WHOLE, distortion).and(|| exactly(HALF_TURN, distortion, &points, half_turn))
-}
-
-/// With memory: the relay with hysteresis stands for `branches-odd` as a property of the code's outputs.
-fn prove_odd_harmonics_hysteretic(distortion: Distortion) -> Verdict {
-    let half_turn = |[level, half_width, x]: [Rational; 3], factor: Rational| {
-        let relay = RelayHysteresis::new(level, half_width, number(0.0)).ok()?;
+        let relay = made(level, half_width).ok()?;
         let sweep = Sinusoid::new(number(0.0), number(9.0)).ok()?;
         let sum = |branch, other| relay.output(x, branch, &sweep) + factor * relay.output(-x, other, &sweep);
         Some([sum(Branch::Rising, Branch::Falling), sum(Branch::Falling, Branch::Rising)])

@@ -7,8 +7,7 @@ use core::f64::consts::PI;
 
 use nalgebra::Complex;
 
-use super::algebra::number;
-use super::enclosure::identity;
+use super::algebra::{identity, number};
 use super::relay::{SWITCHINGS, relay, root};
 use super::{Case, ClaimPart, ClaimVariable, Distortion, Draw, Evidence, Verdict, claim, tolerance};
 use crate::describing::{DescribingFunction, by_quadrature};

@@ -1,7 +1,7 @@
 //! The kernels that the piecewise-linear catalogue is made of: closed form equals integral.
 
+use super::algebra::no_function;
 use super::band::as_coded;
-use super::enclosure::no_function;
 use super::family::closed_is_integral;
 use super::single::SingleKernel;
 use super::{Case, ClaimPart, ClaimVariable, Distortion, Draw, Evidence, Verdict, claim};
@@ -67,21 +67,20 @@ kernels! {
 }
 
 pub(super) fn prove_kernel(form: KernelForm, distortion: Distortion, part: ClaimPart) -> Verdict {
-    type ProvedKernel = LazyLock<Result<Proved<1>, NotProved<1>>>;
-    static STEP: ProvedKernel = LazyLock::new(|| KernelForm::Step.prove());
-    static RAMP: ProvedKernel = LazyLock::new(|| KernelForm::Ramp.prove());
-    static SIGN: ProvedKernel = LazyLock::new(|| KernelForm::Sign.prove());
-    static BAND: ProvedKernel = LazyLock::new(|| KernelForm::Band.prove());
+    static PROVED: [LazyLock<Result<Proved<1>, NotProved<1>>>; 4] = [
+        LazyLock::new(|| KernelForm::Step.prove()),
+        LazyLock::new(|| KernelForm::Ramp.prove()),
+        LazyLock::new(|| KernelForm::Sign.prove()),
+        LazyLock::new(|| KernelForm::Band.prove()),
+    ];
     let verdict = |proved: &Result<Proved<1>, _>| match proved {
         Ok(proved) => Verdict::Holds(Evidence::identity(part.clone(), proved.bound.value(), proved.boxes)),
         Err(_) => Verdict::undecided("60000 cells at most"),
     };
-    match (distortion, form) {
-        (Distortion::None, KernelForm::Step) => verdict(&STEP),
-        (Distortion::None, KernelForm::Ramp) => verdict(&RAMP),
-        (Distortion::None, KernelForm::Sign) => verdict(&SIGN),
-        (Distortion::None, KernelForm::Band) => verdict(&BAND),
-        (distorted, form) => verdict(&form.prove_changed(&distorted)),
+    if distortion == Distortion::None {
+        verdict(&PROVED[form as usize])
+    } else {
+        verdict(&form.prove_changed(&distortion))
     }
 }
 

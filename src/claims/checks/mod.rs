@@ -9,14 +9,13 @@ use super::tolerance;
 mod algebra;
 pub mod band;
 pub mod decomposition;
-mod enclosure;
 mod family;
 mod machine;
 pub mod single;
 pub mod step;
 pub mod vehicle_proofs;
 
-pub(super) use algebra::{equal, exactly};
+pub(super) use algebra::exactly;
 pub(super) use single::SingleKernel;
 
 pub(super) mod autotune;

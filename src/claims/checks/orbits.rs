@@ -1,6 +1,7 @@
 //! Exact limit cycles of a drag axis, and the parameters that the first-harmonic method reads off them.
 
 use super::algebra::{exactly, number};
+use super::family::cycle;
 use super::orbit_proofs::{FALSE_DRAG, proved};
 use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::balance::HarmonicBalance;
@@ -151,21 +152,17 @@ fn a_period_on(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>, speed: f64) -
 fn no_cycle(draw: &mut Draw, drag: f64, half_width: f64) -> Option<Case> {
     let level = draw.uniform("level", 0.1, 1.0);
     let (drag, half_width) = (draw.note("drag", drag), draw.note("half_width", half_width));
-    let (axis, relay) = (DragAxis::linear(1.0, drag).ok()?, RelayHysteresis::new(level, half_width, 0.0).ok()?);
-    Some(Case::truth(limit_cycle(&axis, &relay).is_ok()))
+    Some(Case::truth(cycle(1.0, [drag, 0.0], 0.0, 0.0, [level, half_width]).is_some()))
 }
 
 /// A loop with a disturbance, and its orbit.
 fn disturbed(draw: &mut Draw, linear: bool, quadratic: bool) -> Option<(f64, f64, LimitCycle<f64>)> {
     let coefficient = |draw: &mut Draw, name, on: bool| if on { draw.log_uniform(name, 0.1, 10.0) } else { 0.0 };
-    let drag = (coefficient(draw, "linear_drag", linear), coefficient(draw, "quadratic_drag", quadratic));
+    let drag = [coefficient(draw, "linear_drag", linear), coefficient(draw, "quadratic_drag", quadratic)];
     let level = draw.uniform("level", 0.5, 2.0);
     let share = draw.uniform("disturbance_over_level", 0.1, 0.8);
     let (half_width, delay_s) = (draw.log_uniform("half_width", 0.05, 2.0), draw.uniform("delay_s", 0.0, 0.5));
-    let axis = DragAxis::mixed(1.0, drag.0, drag.1).ok()?;
-    let axis = axis.with_disturbance(share * level).ok()?.with_delay_s(delay_s).ok()?;
-    let relay = RelayHysteresis::new(level, half_width, 0.0).ok()?;
-    Some((level, share * level, limit_cycle(&axis, &relay).ok()?))
+    Some((level, share * level, cycle(1.0, drag, share * level, delay_s, [level, half_width])?))
 }
 
 fn delta(draw: &mut Draw, linear: bool, quadratic: bool, sign: f64) -> Option<Case> {

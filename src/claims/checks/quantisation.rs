@@ -1,7 +1,6 @@
 //! The effect of an error of the amplitude on the parameters: eqs. 37-39.
 
-use super::algebra::{exactly, number};
-use super::enclosure::unknown;
+use super::algebra::{exactly, number, unknown};
 use super::identification::oscillation;
 use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity};

@@ -2,8 +2,7 @@
 
 use core::f64::consts::PI;
 
-use super::algebra::{exactly, number};
-use super::enclosure::no_function;
+use super::algebra::{exactly, no_function, number};
 use super::kernels::{BREAKPOINT, on_unit, prove_kernel};
 use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, bias_of_output, by_quadrature};
@@ -48,7 +47,10 @@ claim! {
     printed Holds formula(|df| df.q, |s| -4.0 * s.level * s.half_width / (PI * s.amplitude * s.amplitude), true);
     false formula(|df| df.q, |s| -4.0 * s.level * (s.half_width + s.bias) / (PI * s.amplitude * s.amplitude), true);
     needs "switches-both-ways" formula_below_switching();
-    proof prove_relay_q;
+    proof |distortion| {
+        let term = |u| -(number(2.0) * u / Rational::pi());
+        prove_printed(distortion, term, |width, _| -(number(4.0) * width / Rational::pi()), |df| df.q)
+    };
 }
 
 /// Below the switching amplitude the output is constant: its Q is zero, the formula's is not.
@@ -65,7 +67,10 @@ claim! {
     printed Holds formula(|df| df.p, |s| in_phase(s, s.bias), true);
     false formula(|df| df.p, |s| in_phase(s, 0.0), true);
     states "switches-both-ways";
-    proof prove_relay_p;
+    proof |distortion| {
+        let term = |u| number(2.0) / Rational::pi() * root(u);
+        prove_printed(distortion, term, |width, bias| term(width - bias) + term(width + bias), |df| df.p)
+    };
 }
 
 fn in_phase(s: &SwitchedRelay, bias: f64) -> f64 {
@@ -180,18 +185,6 @@ fn prove_printed(
     prove_kernel(KernelForm::Sign, distortion, BREAKPOINT)
         .and(|| exactly(TERM, distortion, &[[0.3], [-0.3], [0.7], [-0.7]], of_level))
         .and(|| exactly(SUM, distortion, &SWITCHINGS, of_sum))
-}
-
-/// Eq. 30.
-fn prove_relay_q(distortion: Distortion) -> Verdict {
-    let term = |u| -(number(2.0) * u / Rational::pi());
-    prove_printed(distortion, term, |width, _| -(number(4.0) * width / Rational::pi()), |df| df.q)
-}
-
-/// Eq. 31.
-fn prove_relay_p(distortion: Distortion) -> Verdict {
-    let term = |u| number(2.0) / Rational::pi() * root(u);
-    prove_printed(distortion, term, |width, bias| term(width - bias) + term(width + bias), |df| df.p)
 }
 
 /// The inverse sine: towards the turning points by the half angle, as the code forms it.

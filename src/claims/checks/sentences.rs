@@ -2,12 +2,11 @@
 
 use core::f64::consts::{PI, SQRT_2};
 
+use super::family::cycle;
 use super::{Case, Draw, claim, tolerance};
 use crate::describing::{ClosedForm, DescribingFunction};
 use crate::identify::iso::amplitude_sensitivity;
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
-use crate::orbit::limit_cycle;
-use crate::plant::DragAxis;
 
 /// Why neither is called proved: the program draws cases, a kernel has the proof.
 const SAMPLED: &str = "the program draws cases";
@@ -69,8 +68,7 @@ fn on_exact_orbits(draw: &mut Draw) -> Option<Case> {
     let half_width = draw.log_uniform("half_width", 0.1, 5.0);
     let disturbance = draw.uniform("disturbance", 0.1, 0.5);
     let identified = |disturbance: f64| {
-        let axis = DragAxis::linear(1.0, 1.0).ok()?.with_disturbance(disturbance).ok()?;
-        let orbit = limit_cycle(&axis, &RelayHysteresis::new(1.0, half_width, 0.0).ok()?).ok()?;
+        let orbit = cycle(1.0, [1.0, 0.0], disturbance, 0.0, [1.0, half_width])?;
         let omega = 2.0 * PI / (orbit.time_positive_s + orbit.time_negative_s);
         Some(4.0 * half_width / (PI * omega * orbit.amplitude * orbit.amplitude))
     };

@@ -1,7 +1,7 @@
 //! Theorems 2 and 3: when the self-oscillations of a closed loop are symmetric, on exact orbits and on the first harmonic.
 
 use super::algebra::{exactly, number};
-use super::existence::return_error;
+use super::existence::{return_error, with_integrator};
 use super::step::by_steps;
 use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::balance::{LipschitzLoop, OddCharacteristic};
@@ -83,11 +83,6 @@ fn residual(function: fn(f64) -> f64, gain: f64, bias: f64, amplitude: f64) -> O
 
 /// Poles of `gain/(s (s + 1)^2)` without its integrator.
 const EQUAL_LAGS: [f64; 2] = [1.0, 1.0];
-
-/// `gain/(s (s + a)(s + b))`.
-fn with_integrator([a, b]: [f64; 2], gain: f64) -> Option<TransferFunction> {
-    TransferFunction::new(&[gain], &[1.0, a + b, a * b, 0.0]).ok()
-}
 
 /// `gain/(s (s + 1)^2)` oscillates with a bias under `x^3 - 2x`, which is odd: proved, and confirmed by an integration over
 /// a period. The search begins at the first harmonic's balance: the bias solves `F_0 = 0`, the amplitude `1 + P G = 0`.

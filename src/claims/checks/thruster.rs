@@ -1,6 +1,6 @@
 //! From the controller's forces to thrust: eqs. 1-3 and 35, Fig. 11.
 
-use super::algebra::{Equation, exactly, number};
+use super::algebra::{exactly, number};
 use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::numeric::Real;
 use crate::proof::polynomial::Rational;
@@ -60,6 +60,11 @@ impl ThrustCurve {
         Self { quadratic, linear, dead_zone, limit: draw.uniform("limit", 100.0, 200.0) }
     }
 
+    fn command(&self, draw: &mut Draw, commands: Commands) -> f64 {
+        let [from, to] = commands(self);
+        draw.uniform("command", from, to)
+    }
+
     fn side(&self) -> Option<ThrustSide<f64>> {
         ThrustSide::new(self.quadratic, self.linear, self.dead_zone, self.limit).ok()
     }
@@ -70,32 +75,19 @@ impl ThrustCurve {
     }
 }
 
-/// The range of the random commands.
-#[derive(Clone, Copy)]
-enum Commands {
-    Turning,
-    Standing,
-    Beyond,
-}
+/// A range of random commands.
+type Commands = fn(&ThrustCurve) -> [f64; 2];
 
-impl Commands {
-    fn draw(self, draw: &mut Draw, curve: &ThrustCurve) -> f64 {
-        match self {
-            Self::Turning => draw.uniform("command", curve.dead_zone, curve.limit),
-            Self::Standing => draw.uniform("command", 0.1, curve.dead_zone),
-            Self::Beyond => draw.uniform("command", 1.01 * curve.limit, 2.0 * curve.limit),
-        }
-    }
-}
+const TURNING: Commands = |curve| [curve.dead_zone, curve.limit];
 
 claim! {
     THRUSTER_AFFINE = "thruster-affine" Identity
     "Thrust a abs(n) n + b n is odd and has one command, sgn(T) sqrt(abs(T)/a) where b = 0";
-    printed Holds affine(Commands::Turning, inverse) and simplest();
+    printed Holds affine(TURNING, inverse) and simplest();
     // The simplest thruster's inverse for every b.
-    false affine(Commands::Turning, |curve, thrust| (thrust.abs() / curve.quadratic).sqrt().copysign(thrust));
-    needs "turning" affine(Commands::Standing, inverse);
-    needs "within-limit" affine(Commands::Beyond, inverse);
+    false affine(TURNING, |curve, thrust| (thrust.abs() / curve.quadratic).sqrt().copysign(thrust));
+    needs "turning" affine(|curve| [0.1, curve.dead_zone], inverse);
+    needs "within-limit" affine(|curve| [1.01 * curve.limit, 2.0 * curve.limit], inverse);
     needs "thrust-grows" falling();
     exactly
         both_ways on "whole" at &[[0.5, 0.3, 1.0, 9.0, 4.0], [0.5, -0.3, 1.0, 9.0, 4.0], [-0.01, 0.3, 1.0, 9.0, 4.0]],
@@ -109,7 +101,7 @@ fn inverse(curve: &ThrustCurve, thrust_n: f64) -> f64 {
 /// Eq. 2 both ways, and back by `inverse`.
 fn affine(draw: &mut Draw, commands: Commands, inverse: fn(&ThrustCurve, f64) -> f64) -> Option<Case> {
     let curve = ThrustCurve::draw(draw, false);
-    let command = commands.draw(draw, &curve);
+    let command = curve.command(draw, commands);
     let thruster = Thruster::affine(curve.quadratic, curve.linear, curve.dead_zone, curve.limit).ok()?;
     let thrust = curve.thrust(command);
     let equations = [
@@ -123,7 +115,7 @@ fn affine(draw: &mut Draw, commands: Commands, inverse: fn(&ThrustCurve, f64) ->
 
 fn simplest(draw: &mut Draw) -> Option<Case> {
     let curve = ThrustCurve::draw(draw, true);
-    let thrust = curve.thrust(Commands::Turning.draw(draw, &curve));
+    let thrust = curve.thrust(curve.command(draw, TURNING));
     let root = (thrust / curve.quadratic).sqrt();
     Some(draw.equal(("command_found", inverse(&curve, -thrust)), -root, root, tolerance::ROUNDING))
 }
@@ -150,7 +142,7 @@ fn asymmetric(draw: &mut Draw, forward_only: bool) -> Option<Case> {
     let thruster = Thruster::asymmetric(forward, if forward_only { forward } else { backward });
     let mut case = Case::truth(thruster.thrust(0.0) == 0.0);
     for (curve, sign) in [(ahead, 1.0), (astern, -1.0)] {
-        let command = sign * Commands::Turning.draw(draw, &curve);
+        let command = sign * curve.command(draw, TURNING);
         let thrust = curve.thrust(command);
         let found = thruster.command(thrust).unwrap_or(f64::NAN);
         let equations =
@@ -167,7 +159,9 @@ claim! {
     // The two thrusters exchanged.
     false allocation(-1.0, 1.0);
     needs "arm-positive" allocation(1.0, 0.0);
-    equal pair_of_forces on "whole" at &[[0.1, 2.0, 3.0]];
+    proof |distortion| exactly(ClaimPart::WHOLE, distortion, &[[0.1, 2.0, 3.0]], |at, factor| {
+        Some(pair_of_forces(at, factor)?.map(|(_, left, right, _)| left - right))
+    });
 }
 
 fn allocation(draw: &mut Draw, sign: f64, arm_factor: f64) -> Option<Case> {
@@ -177,8 +171,8 @@ fn allocation(draw: &mut Draw, sign: f64, arm_factor: f64) -> Option<Case> {
     Some(draw.equations(equations, tolerance::ROUNDING))
 }
 
-/// Eq. 35 of an arm and two thrusts of up to 5 N, and its inverse.
-fn pair_of_forces<T: Real>([arm, port, starboard]: [T; 3], sign: T) -> Option<[Equation<T>; 5]> {
+/// Eq. 35 of an arm and two thrusts of up to 5 N, and its inverse: both sides of each equation, and its scale.
+fn pair_of_forces<T: Real>([arm, port, starboard]: [T; 3], sign: T) -> Option<[(&'static str, T, T, T); 5]> {
     let pair = Allocation::pair(arm).ok()?;
     let [ahead, turning] = pair.forces(&[port, starboard]);
     let [port_found, starboard_found] = pair.thrusts(&[ahead, turning]);

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use super::enclosure::zeros;
+use super::algebra::zeros;
 use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::describing::DescribingFunction;
 use crate::identify::iso::{Parameters, parameters};
