@@ -255,9 +255,18 @@ impl Claim {
 
 /// Declares a claim's constant, with its file: a missing file fails the build.
 ///
-/// Its rows: how many of the cases asked for are drawn; the statement as printed and as corrected, a false variant and the
-/// statement without each hypothesis, as checks of a drawn case with their arguments; hypotheses without such a check; the
-/// proof, or functions that vanish exactly on a part of the domain, in the cases where the points lie.
+/// A check in its rows is a function of a drawn case, followed by its further arguments.
+///
+/// | row | meaning |
+/// |---|---|
+/// | `cases f` | of n cases asked for, its checks draw `f(n)` |
+/// | `printed Holds check` | the check of the statement as printed: it `Holds`, is `Refuted` or `Approximate` |
+/// | `corrected check and check` | the checks of the statement as corrected; `backed by` a proof |
+/// | `false check` | a false variant, which must be refuted |
+/// | `needs "id" check` | a hypothesis: the check refutes the statement without it |
+/// | `states "id"` | a hypothesis without such a check |
+/// | `theorem`, `proof`, `not_proved` | the field of [`Claim`] |
+/// | `exactly f on "part" at points` | the proof: f vanishes identically on a part of the domain, in the cases where the points lie |
 macro_rules! claim {
     ($constant:ident = $id:literal $kind:ident $statement:literal;
         $(cases $cases:expr;)?

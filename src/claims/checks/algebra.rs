@@ -1,4 +1,4 @@
-//! The common part of the proofs: identities of rational functions, case by case; identities of a single variable; numbers that vanish.
+//! The common part of the proofs: identities of rational functions, identities of a single variable, numbers that vanish.
 
 use super::{ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, tolerance};
 use crate::describing::DescribingFunction;

@@ -55,42 +55,39 @@ where
 /// The proof of a member on a branch.
 pub type MemberProof = fn(Distortion, Branch) -> Verdict;
 
+/// Rows: a member, and settings of its parameters.
+macro_rules! members {
+    ($($member:ident $(of $points:ty)?: $($setting:expr),+;)+) => {
+        [$((<$member<Rational $(, $points)?>>::NAME, |distortion, branch| {
+            is_sum::<$member<Rational $(, $points)?>>(distortion, branch, &[$(&$setting),+])
+        })),+]
+    };
+}
+
 /// Each member with settings in every order that its parameters can have; a polyline of up to four points, the bias in each of
 /// its segments.
-pub const MEMBERS: [(&str, MemberProof); 14] = [
-    (Relay::<Rational>::NAME, |d, b| is_sum::<Relay<_>>(d, b, &[&[0.7]])),
-    (RelayDeadZone::<Rational>::NAME, |d, b| is_sum::<RelayDeadZone<_>>(d, b, &[&[0.7, 1.3]])),
-    (RelayHysteresis::<Rational>::NAME, |d, b| is_sum::<RelayHysteresis<_>>(d, b, &[&[0.7, 1.3, 0.2]])),
-    (RelayDeadZoneHysteresis::<Rational>::NAME, |d, b| {
-        is_sum::<RelayDeadZoneHysteresis<_>>(d, b, &[&[0.7, 1.3, 0.5], &[0.7, 0.25, 0.05]])
-    }),
-    (Saturation::<Rational>::NAME, |d, b| is_sum::<Saturation<_>>(d, b, &[&[0.7, 1.3], &[0.7, 0.2]])),
-    (SaturationAsymmetric::<Rational>::NAME, |d, b| {
-        is_sum::<SaturationAsymmetric<_>>(d, b, &[&[0.7, -0.6, 1.3], &[0.7, 0.6, 1.3], &[0.7, -1.3, -0.6]])
-    }),
-    (DeadZone::<Rational>::NAME, |d, b| is_sum::<DeadZone<_>>(d, b, &[&[0.7, 1.3], &[0.7, 0.2]])),
-    (DeadZoneSaturation::<Rational>::NAME, |d, b| is_sum::<DeadZoneSaturation<_>>(d, b, &[&[0.7, 0.6, 1.7]])),
-    (GainChanging::<Rational>::NAME, |d, b| {
-        let settings: [&[f64]; 5] =
-            [&[2.0, 0.7, 1.3], &[0.7, 2.0, 1.3], &[-0.7, 2.0, 1.3], &[-0.7, -2.0, 1.3], &[-2.0, -0.7, 1.3]];
-        is_sum::<GainChanging<_>>(d, b, &settings)
-    }),
-    (Preload::<Rational>::NAME, |d, b| is_sum::<Preload<_>>(d, b, &[&[0.7, 0.4]])),
-    (Quantizer::<Rational>::NAME, |d, b| is_sum::<Quantizer<_>>(d, b, &[&[0.9], &[2.3]])),
-    (Absolute::<Rational>::NAME, |d, b| is_sum::<Absolute<_>>(d, b, &[&[0.7]])),
-    (Polyline::<Rational, Vec<(Rational, Rational)>>::NAME, |d, b| {
-        let settings: [&[f64]; 6] = [
-            &[0.7, -0.3, 0.2, 0.5],
-            &[0.7, -0.3, -1.2, 0.5, 1.1, 0.9],
-            &[0.7, -0.3, 1.2, 0.5, 2.1, 0.9],
-            &[0.7, -0.3, -1.2, 0.5, 1.1, 0.9, 2.2, -0.4],
-            &[0.7, -0.3, -2.2, 0.5, -1.1, 0.9, 0.7, -0.4, 2.3, 0.1],
-            &[0.7, -0.3, -3.2, 0.5, -2.1, 0.9, -1.2, -0.4, -0.3, 0.1],
-        ];
-        is_sum::<Polyline<_, Vec<_>>>(d, b, &settings)
-    }),
-    (Backlash::<Rational>::NAME, |d, b| is_sum::<Backlash<_>>(d, b, &[&[0.7, 0.2], &[0.7, 1.1]])),
-];
+pub const MEMBERS: [(&str, MemberProof); 14] = members! {
+    Relay: [0.7];
+    RelayDeadZone: [0.7, 1.3];
+    RelayHysteresis: [0.7, 1.3, 0.2];
+    RelayDeadZoneHysteresis: [0.7, 1.3, 0.5], [0.7, 0.25, 0.05];
+    Saturation: [0.7, 1.3], [0.7, 0.2];
+    SaturationAsymmetric: [0.7, -0.6, 1.3], [0.7, 0.6, 1.3], [0.7, -1.3, -0.6];
+    DeadZone: [0.7, 1.3], [0.7, 0.2];
+    DeadZoneSaturation: [0.7, 0.6, 1.7];
+    GainChanging: [2.0, 0.7, 1.3], [0.7, 2.0, 1.3], [-0.7, 2.0, 1.3], [-0.7, -2.0, 1.3], [-2.0, -0.7, 1.3];
+    Preload: [0.7, 0.4];
+    Quantizer: [0.9], [2.3];
+    Absolute: [0.7];
+    Polyline of Vec<(Rational, Rational)>:
+        [0.7, -0.3, 0.2, 0.5],
+        [0.7, -0.3, -1.2, 0.5, 1.1, 0.9],
+        [0.7, -0.3, 1.2, 0.5, 2.1, 0.9],
+        [0.7, -0.3, -1.2, 0.5, 1.1, 0.9, 2.2, -0.4],
+        [0.7, -0.3, -2.2, 0.5, -1.1, 0.9, 0.7, -0.4, 2.3, 0.1],
+        [0.7, -0.3, -3.2, 0.5, -2.1, 0.9, -1.2, -0.4, -0.3, 0.1];
+    Backlash: [0.7, 0.2], [0.7, 1.1];
+};
 
 /// Every member on both branches.
 pub fn decomposition(distortion: Distortion) -> Verdict {

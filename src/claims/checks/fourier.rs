@@ -200,7 +200,7 @@ fn square_completed(
     Some([left([mean + a, best_sine + b, best_cosine + c]) - left([mean, best_sine, best_cosine]) - more])
 }
 
-/// Even orders cancel; and half a turn on the output is its negative, of a relay that stands for the parity as a property of
+/// Even orders cancel, and half a turn on the output is its negative: of a relay, which stands for the parity as a property of
 /// the code's outputs.
 fn prove_odd_harmonics<C: Characteristic<Number = Rational>>(
     distortion: Distortion,

@@ -7,13 +7,9 @@ use std::collections::{HashSet, VecDeque};
 use super::{ClaimPart, Evidence, Verdict, Witness};
 use crate::on_board::{Coordinate, Key, Observation, Observer, Phase, Protocol, Supervisor};
 
-const POSITION: ClaimPart = ClaimPart::named("positions");
-const HEADING: ClaimPart = ClaimPart::named("headings");
-const SPEED: ClaimPart = ClaimPart::named("speeds");
-const COARSE: ClaimPart = ClaimPart::named("coarse");
-/// The first lattices of [`Lattice::all`], and all of them: readings and times off them are not spoken of.
-pub(super) const LATTICES: &[ClaimPart] = &[POSITION, HEADING, SPEED];
-pub(super) const WITH_COARSE: &[ClaimPart] = &[POSITION, HEADING, SPEED, COARSE];
+/// How many of [`Lattice::all`] a claim is about: readings and times off them are not spoken of.
+pub(super) const LATTICES: usize = 3;
+pub(super) const WITH_COARSE: usize = 4;
 
 /// A finite world: an experiment, and the samples that may come.
 pub(super) struct Lattice {
@@ -33,7 +29,7 @@ const OBSERVATIONS: [Observation; 4] =
     [Observation::Between, Observation::Unsteady, Observation::Steady, Observation::Condition40];
 
 impl Lattice {
-    fn of(part: ClaimPart, coordinate: Coordinate, half_width: f64, readings: &'static [f64]) -> Self {
+    fn of(name: &'static str, coordinate: Coordinate, half_width: f64, readings: &'static [f64]) -> Self {
         let protocol = Protocol {
             neutral_command: 0.5,
             lowest_command: -1.0,
@@ -50,19 +46,19 @@ impl Lattice {
             factor: 2.0,
             ..Protocol::new(coordinate, 1.0, half_width, 1.5 * half_width, 0.5)
         };
-        Self { part, protocol, readings }
+        Self { part: ClaimPart::named(name), protocol, readings }
     }
 
     /// A lattice for each kind of coordinate, and a lattice with half-periods. All numbers are whole or halves: sums are exact.
     pub(super) fn all() -> [Self; 4] {
-        let Self { part, protocol, readings } = Self::of(COARSE, Coordinate::Position, 2.0, &[-2.0, 1.0, 2.0]);
-        let protocol = Protocol { dwell_s: 1.0, patience_s: 5.0, duration_s: 10.0, attempts: 2, ..protocol };
+        let coarse = Self::of("coarse", Coordinate::Position, 2.0, &[-2.0, 1.0, 2.0]);
+        let protocol = Protocol { dwell_s: 1.0, patience_s: 5.0, duration_s: 10.0, attempts: 2, ..coarse.protocol };
         let protocol = Protocol { resolution: 1.0, largest_rate: 3.0, ..protocol };
         [
-            Self::of(POSITION, Coordinate::Position, 1.0, &[-2.0, -1.0, 0.0, 1.0, 2.0]),
-            Self::of(HEADING, Coordinate::HeadingDegrees, 60.0, &[0.0, 60.0, 120.0, 180.0, 240.0, 300.0]),
-            Self::of(SPEED, Coordinate::Speed, 1.0, &[-1.0, 0.0, 1.0]),
-            Self { part, protocol, readings },
+            Self::of("positions", Coordinate::Position, 1.0, &[-2.0, -1.0, 0.0, 1.0, 2.0]),
+            Self::of("headings", Coordinate::HeadingDegrees, 60.0, &[0.0, 60.0, 120.0, 180.0, 240.0, 300.0]),
+            Self::of("speeds", Coordinate::Speed, 1.0, &[-1.0, 0.0, 1.0]),
+            Self { protocol, ..coarse },
         ]
     }
 }
@@ -258,9 +254,9 @@ impl Property {
 /// States beyond this are not waited for.
 const MOST_STATES: usize = 3_000_000;
 
-/// Every reachable state of the lattices that the parts name, breadth first, for the shortest witness.
-pub(super) fn explore(parts: &[ClaimPart], defect: Defect, property: Property) -> Verdict {
-    Verdict::all(Lattice::all().iter().take(parts.len()).map(|lattice| explore_one(lattice, defect, property)))
+/// Every reachable state of the first lattices, breadth first, for the shortest witness.
+pub(super) fn explore(lattices: usize, defect: Defect, property: Property) -> Verdict {
+    Verdict::all(Lattice::all().iter().take(lattices).map(|lattice| explore_one(lattice, defect, property)))
 }
 
 fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict {

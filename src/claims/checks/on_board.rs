@@ -8,11 +8,11 @@ use crate::on_board::{Coordinate, Observation, Phase, Protocol};
 
 /// A property of every state of the machine, and a defect that takes it away.
 macro_rules! explored {
-    ($constant:ident = $id:literal $statement:literal $property:expr, over $parts:ident, but not $defect:ident) => {
+    ($constant:ident = $id:literal $statement:literal $property:expr, over $lattices:ident, but not $defect:ident) => {
         claim! {
             $constant = $id Theorem $statement {
-                corrected: Some(|_| explore($parts, Defect::None, $property)),
-                falsified: |_| explore($parts, Defect::$defect, $property),
+                corrected: Some(|_| explore($lattices, Defect::None, $property)),
+                falsified: |_| explore($lattices, Defect::$defect, $property),
             }
         }
     };
