@@ -20,12 +20,12 @@ SECONDS = 300
 TOPICS = {
     "arithmetic": [("lib", ["numeric::"]), ("properties", ["numeric::", "interval::", "conformance::", "engine::large", "certificate::"])],
     "jets": [("lib", ["numeric::"]), ("properties", ["certificate::", "engine::", "interval::"])],
-    "engine": [("lib", ["proof::", "claims::checks::step"]), ("properties", ["engine::", "certificate::"])],
-    "formulas": [("lib", ["proof::", "claims::checks"])],
-    "describing": [("lib", ["claims::checks"]), ("properties", ["certified::kernels_are", "certified::closed_forms", "engine::every_part"])],
-    "orbits": [("properties", ["engine::", "orbit_certified::", "orbit_drag_axis::", "orbit_linear::", "orbit_two_level::"]), ("lib", ["orbit::", "claims::checks"])],
+    "engine": [("lib", ["proof::"]), ("properties", ["claim_proofs::", "engine::", "certificate::"])],
+    "formulas": [("lib", ["proof::"]), ("properties", ["claim_proofs::"])],
+    "describing": [("properties", ["claim_proofs::", "certified::kernels_are", "certified::closed_forms", "engine::every_part"])],
+    "orbits": [("properties", ["engine::", "orbit_certified::", "orbit_drag_axis::", "orbit_linear::", "orbit_two_level::", "claim_proofs::"]), ("lib", ["orbit::"])],
     "words": [("properties", ["claims::words", "claims::boxes", "claims::files"]), ("lib", ["claims::"])],
-    "vehicle": [("lib", ["claims::checks"])],
+    "vehicle": [("properties", ["claim_proofs::"])],
 }
 
 SWITCH = """

@@ -6,7 +6,7 @@ use crate::proof::Change;
 
 /// The factor of a formula before its proof.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Distortion {
+pub enum Distortion {
     /// One: the statement itself.
     None,
     /// The same factor everywhere.
@@ -22,7 +22,7 @@ pub(crate) enum Distortion {
 
 impl Distortion {
     /// The distortions that no proof may survive.
-    pub(crate) const FALSE: [Self; 4] = [
+    pub const FALSE: [Self; 4] = [
         Self::Everywhere(1.000_01),
         Self::Everywhere(0.999_99),
         Self::Near { share: 0.381_966, size: 1e-6 },

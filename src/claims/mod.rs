@@ -32,90 +32,47 @@ pub use sampling::Budget;
 #[doc(hidden)]
 pub use checks::method_bias;
 
-/// Every claim, each after those that it rests on.
-pub const CLAIMS: &[Claim] = &[
-    checks::fourier::FOURIER_COEFFICIENTS,
-    checks::kernels::KERNEL_STEP,
-    checks::kernels::KERNEL_RAMP,
-    checks::kernels::KERNEL_SIGN,
-    checks::kernels::KERNEL_BAND,
-    checks::fourier::DESCRIBING_FUNCTION,
-    checks::fourier::POLYNOMIAL,
-    checks::power_law::POWER_LAW,
-    checks::smooth::SINE,
-    checks::smooth::SINH,
-    checks::smooth::ARCTAN,
-    checks::smooth::TANH,
-    checks::fourier::ODD_HARMONICS,
-    checks::fourier::ODD_HARMONICS_HYSTERETIC,
-    checks::fourier::SINE_ABS_SINE,
-    checks::symmetry::LEMMA_1,
-    checks::symmetry::LEMMA_2,
-    checks::theorems::THEOREM_2,
-    checks::theorems::THEOREM_3,
-    checks::relay::RELAY_Q,
-    checks::relay::RELAY_P,
-    checks::relay::RELAY_F0,
-    checks::relay::SECOND_QUADRANT,
-    checks::relay_state::NOISE,
-    checks::relay::SWITCHING_CONDITION,
-    checks::relay_state::SAMPLED_LEVEL,
-    checks::tone::FIRST_HARMONIC,
-    checks::tone::LINEAR_DRAG,
-    checks::tone::QUADRATIC_DRAG,
-    checks::identification::TABLE_3,
-    checks::identification::DELAY_ROTATION,
-    checks::quantisation::QUANTISATION_ALPHA,
-    checks::quantisation::QUANTISATION_BETA,
-    checks::quantisation::QUANTISATION_BETA_XX,
-    checks::quantisation::QUANTISATION_ZERO,
-    checks::sentences::CONFIDENCE_BOUNDS,
-    checks::sentences::DISTURBANCE_AND_DRAG,
-    checks::identification::RELATIVE_SPREAD,
-    checks::identification::DRAG_DECISION,
-    checks::identification::ZIG_ZAG,
-    checks::bounded::BOUNDED_DUAL,
-    checks::bounded::BOUNDED_MEAN_VALUE,
-    checks::bounded::BOUNDED_CHAIN,
-    checks::orbits::ORBIT_QUADRATIC,
-    checks::orbits::ORBIT_LINEAR,
-    checks::orbits::DELTA_FROM_TIMES,
-    checks::orbits::METHOD_BIAS,
-    checks::orbits::BALANCE_CONVERGES,
-    checks::thruster::THRUSTER_BILINEAR,
-    checks::thruster::THRUSTER_AFFINE,
-    checks::thruster::THRUSTER_ASYMMETRIC,
-    checks::thruster::ALLOCATION,
-    checks::thruster::COMPENSATION,
-    checks::vehicle::KINEMATICS,
-    checks::vehicle::SIX_AXES,
-    checks::vehicle::UNCOUPLED_AXIS,
-    checks::experiment::DELAYS_ADD,
-    checks::experiment::HEAVE,
-    checks::experiment::SURGE,
-    checks::experiment::PROCEDURE,
-    checks::experiment::HARMONIC_BALANCE,
-    checks::existence::RIGOROUS_DESCRIBING_FUNCTION,
-    checks::orbit_proofs::NO_EARLY_SWITCHING,
-    checks::orbit_proofs::MULTIPLIER,
-    checks::orbit_proofs::QUADRATIC_DISTURBED,
-    checks::orbit_proofs::LINEAR_DISTURBED,
-    checks::orbit_proofs::AMPLITUDE_MONOTONE_QUADRATIC,
-    checks::orbit_proofs::AMPLITUDE_MONOTONE_LINEAR,
-    checks::orbit_proofs::BIAS_ALPHA_LINEAR,
-    checks::orbit_proofs::BIAS_BETA_LINEAR,
-    checks::orbit_proofs::BIAS_ALPHA_QUADRATIC,
-    checks::orbit_proofs::BIAS_BETA_QUADRATIC,
-    checks::control::POLE_PLACEMENT,
-    checks::control::DELAY_MARGIN,
-    checks::control::RELAY_ULTIMATE,
-    checks::autotune::RELAY_FIRST_ORDER,
-    checks::autotune::AMIGO_SENSITIVITY,
-    checks::on_board::ON_BOARD_ENDS,
-    checks::on_board::ON_BOARD_SWITCHES,
-    checks::on_board::ON_BOARD_ABORT,
-    checks::on_board::ON_BOARD_LIMITS,
-    checks::on_board::ON_BOARD_FAULTS,
-    checks::on_board::ON_BOARD_EXCURSION,
-    checks::on_board::ON_BOARD_STILL,
-];
+internal! {
+    use checks::{band, decomposition, power_law, single, step, vehicle_proofs};
+    use distortion::{Distortion};
+}
+
+/// The list of claims from rows of those that stand in a file of `checks`.
+macro_rules! registry {
+    ($($file:ident: $($claim:ident)+;)+) => {
+        /// Every claim, each after those that it rests on.
+        pub const CLAIMS: &[Claim] = &[$($(checks::$file::$claim),+),+];
+    };
+}
+
+registry! {
+    fourier: FOURIER_COEFFICIENTS;
+    kernels: KERNEL_STEP KERNEL_RAMP KERNEL_SIGN KERNEL_BAND;
+    fourier: DESCRIBING_FUNCTION POLYNOMIAL;
+    power_law: POWER_LAW;
+    smooth: SINE SINH ARCTAN TANH;
+    fourier: ODD_HARMONICS ODD_HARMONICS_HYSTERETIC SINE_ABS_SINE;
+    symmetry: LEMMA_1 LEMMA_2;
+    theorems: THEOREM_2 THEOREM_3;
+    relay: RELAY_Q RELAY_P RELAY_F0 SECOND_QUADRANT;
+    relay_state: NOISE;
+    relay: SWITCHING_CONDITION;
+    relay_state: SAMPLED_LEVEL;
+    tone: FIRST_HARMONIC LINEAR_DRAG QUADRATIC_DRAG;
+    identification: TABLE_3 DELAY_ROTATION;
+    quantisation: QUANTISATION_ALPHA QUANTISATION_BETA QUANTISATION_BETA_XX QUANTISATION_ZERO;
+    sentences: CONFIDENCE_BOUNDS DISTURBANCE_AND_DRAG;
+    identification: RELATIVE_SPREAD DRAG_DECISION ZIG_ZAG;
+    bounded: BOUNDED_DUAL BOUNDED_MEAN_VALUE BOUNDED_CHAIN;
+    orbits: ORBIT_QUADRATIC ORBIT_LINEAR DELTA_FROM_TIMES METHOD_BIAS BALANCE_CONVERGES;
+    thruster: THRUSTER_BILINEAR THRUSTER_AFFINE THRUSTER_ASYMMETRIC ALLOCATION COMPENSATION;
+    vehicle: KINEMATICS SIX_AXES UNCOUPLED_AXIS;
+    experiment: DELAYS_ADD HEAVE SURGE PROCEDURE HARMONIC_BALANCE;
+    existence: RIGOROUS_DESCRIBING_FUNCTION;
+    orbit_proofs: NO_EARLY_SWITCHING MULTIPLIER QUADRATIC_DISTURBED LINEAR_DISTURBED AMPLITUDE_MONOTONE_QUADRATIC
+        AMPLITUDE_MONOTONE_LINEAR BIAS_ALPHA_LINEAR BIAS_BETA_LINEAR BIAS_ALPHA_QUADRATIC BIAS_BETA_QUADRATIC;
+    control: POLE_PLACEMENT DELAY_MARGIN RELAY_ULTIMATE;
+    autotune: RELAY_FIRST_ORDER AMIGO_SENSITIVITY;
+    on_board: ON_BOARD_ENDS ON_BOARD_SWITCHES ON_BOARD_ABORT ON_BOARD_LIMITS ON_BOARD_FAULTS ON_BOARD_EXCURSION
+        ON_BOARD_STILL;
+}

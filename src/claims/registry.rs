@@ -66,18 +66,6 @@ pub struct Hypothesis {
     pub counterexample: Option<Checker>,
 }
 
-impl Hypothesis {
-    /// The statement needs it: this checker refutes the statement without it.
-    pub(crate) const fn needed(id: &'static str, counterexample: Checker) -> Self {
-        Self { id, counterexample: Some(counterexample) }
-    }
-
-    /// Without a case that violates it alone.
-    pub(crate) const fn stated(id: &'static str) -> Self {
-        Self { id, counterexample: None }
-    }
-}
-
 /// A definition, lemma, theorem or identity with its checkers; its page has the rest.
 #[derive(Clone, Copy, Debug)]
 pub struct Claim {
@@ -87,6 +75,8 @@ pub struct Claim {
     pub kind: Kind,
     /// The statement that holds, in a single line.
     pub statement: &'static str,
+    /// How many of the cases asked for its checks draw: fewer where a case takes long.
+    pub(crate) cases: fn(usize) -> usize,
     /// The obstacle to a proof of the whole statement; `None` where it is proved or every state was visited.
     pub not_proved: Option<&'static str>,
     /// As printed.
@@ -170,6 +160,7 @@ impl Claim {
         id: "",
         kind: Kind::Statement,
         statement: "",
+        cases: |all| all,
         not_proved: None,
         printed: AsPrinted::Absent,
         corrected: None,
@@ -253,17 +244,64 @@ impl Claim {
         self.theorem.map(|(_, false_one)| false_one)
     }
 
-    /// The budget with a seed of this claim's own: its cases do not depend on the claims run before.
+    /// The budget with a seed of this claim's own, and as many cases as it draws: they do not depend on the claims run before.
     #[must_use]
     pub fn stream(&self, budget: Budget) -> Budget {
         let hash =
             self.id.bytes().fold(budget.seed, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
-        Budget { seed: hash, ..budget }
+        Budget { cases: (self.cases)(budget.cases), seed: hash }
     }
 }
 
 /// Declares a claim's constant, with its file: a missing file fails the build.
+///
+/// A check in its rows is a function of a drawn case, followed by its further arguments.
+///
+/// | row | meaning |
+/// |---|---|
+/// | `cases f` | of n cases asked for, its checks draw `f(n)` |
+/// | `printed Holds check` | the check of the statement as printed: it `Holds`, is `Refuted` or `Approximate` |
+/// | `corrected check and check` | the checks of the statement as corrected; `backed by` a proof |
+/// | `false check` | a false variant, which must be refuted |
+/// | `needs "id" check` | a hypothesis: the check refutes the statement without it |
+/// | `states "id"` | a hypothesis without such a check |
+/// | `theorem`, `proof`, `not_proved` | the field of [`Claim`] |
+/// | `exactly f on "part" at points` | the proof: f vanishes identically on a part of the domain, in the cases where the points lie |
 macro_rules! claim {
+    ($constant:ident = $id:literal $kind:ident $statement:literal;
+        $(cases $cases:expr;)?
+        $(printed $printed:ident $($as_printed:ident($($p:expr),*))and+;)?
+        $(corrected $($as_corrected:ident($($c:expr),*))and+ $(backed by $backing:expr)?;)?
+        false $falsified:ident($($f:expr),*);
+        $(needs $needed:literal $without:ident($($w:expr),*);)*
+        $(states $stated:literal;)*
+        $(theorem $theorem:expr;)?
+        $(proof $proof:expr;)?
+        $(exactly $($functions:ident on $part:literal at $points:expr),+;)?
+        $(not_proved $why:expr;)?
+    ) => {
+        claim! { $constant = $id $kind $statement {
+            $(cases: $cases,)?
+            $(printed: $crate::claims::AsPrinted::$printed($crate::claims::registry::drawn!($($as_printed($($p),*))and+)),)?
+            $(corrected: Some(
+                $crate::claims::registry::drawn!($($as_corrected($($c),*))and+ $(, backed by $backing)?)
+            ),)?
+            falsified: $crate::claims::registry::drawn!($falsified($($f),*)),
+            hypotheses: &[
+                $($crate::claims::Hypothesis {
+                    id: $needed,
+                    counterexample: Some($crate::claims::registry::drawn!($without($($w),*))),
+                },)*
+                $($crate::claims::Hypothesis { id: $stated, counterexample: None },)*
+            ],
+            $(theorem: Some($theorem),)?
+            $(proof: Some($proof),)?
+            $(proof: Some(|distortion| $crate::claims::Verdict::all([$(
+                $crate::claims::checks::exactly($crate::claims::ClaimPart::named($part), distortion, $points, $functions)
+            ),+])),)?
+            $(not_proved: Some($why),)?
+        } }
+    };
     ($constant:ident = $id:literal $kind:ident $statement:literal { $($field:ident: $value:expr),+ $(,)? }) => {
         #[doc = $statement]
         pub(in crate::claims) const $constant: $crate::claims::Claim = $crate::claims::Claim {
@@ -277,3 +315,15 @@ macro_rules! claim {
     };
 }
 pub(in crate::claims) use claim;
+
+/// A checker of drawn cases: each of these checks, with its arguments, on cases of its own.
+macro_rules! drawn {
+    ($($check:ident($($argument:expr),*))and+ $(, backed by $backing:expr)?) => {
+        |budget| {
+            $crate::claims::Verdict::all([
+                $($crate::claims::sampling::sample(budget, |draw| $check(draw $(, $argument)*))),+
+            ])$(.backed_by(|| $backing))?
+        }
+    };
+}
+pub(in crate::claims) use drawn;

@@ -88,7 +88,8 @@ impl KernelForm {
     }
 
     /// Derivative of the integral by phi: Leibniz's rule, the weighted kernel at the moving end and the integral of its change.
-    pub(crate) fn slope<T: Real>(self, phi: T) -> [T; 3] {
+    #[doc(hidden)]
+    pub fn slope<T: Real>(self, phi: T) -> [T; 3] {
         let (sine, cosine, pi) = (phi.sin(), phi.cos(), T::pi());
         let step = [T::one() / (pi + pi), cosine / pi, sine / pi];
         // Of the weights from `pi/2 - phi` to `pi/2`.

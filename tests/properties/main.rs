@@ -12,6 +12,7 @@ mod cases;
 mod catalogue;
 mod certificate;
 mod certified;
+mod claim_proofs;
 mod claims;
 mod conformance;
 mod control;

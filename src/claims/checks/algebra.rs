@@ -1,11 +1,14 @@
-//! The common part of the exact proofs: identities of rational functions, case by case.
+//! The common part of the proofs: identities of rational functions, identities of a single variable, numbers that vanish.
 
-use super::{ClaimPart, Distortion, Evidence, Verdict};
+use super::{ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, tolerance};
+use crate::describing::DescribingFunction;
+use crate::numeric::{Interval, Real};
+use crate::proof::identity::{IdentityJet, prove_zero};
 use crate::proof::polynomial::{Rational, prove_identity};
 
 /// That functions of the code vanish identically in the cases in which the points lie. They take the variables and the
 /// factor of the statement, 1 where it is to be proved.
-pub(super) fn exactly<const N: usize, const M: usize>(
+pub(in crate::claims) fn exactly<const N: usize, const M: usize>(
     part: ClaimPart,
     distortion: Distortion,
     points: &[[f64; N]],
@@ -23,26 +26,43 @@ pub(super) fn exactly<const N: usize, const M: usize>(
 }
 
 pub(super) fn number(value: f64) -> Rational {
-    crate::numeric::Real::from_f64(value)
+    Rational::from_f64(value)
 }
 
-#[cfg(test)]
-mod tests {
-    use crate::claims::{Budget, CLAIMS, Word};
+/// Cells of an identity of a single variable.
+const CELLS: usize = 5000;
 
-    /// Claims whose proofs take many subdivisions: `tests/properties` tries theirs.
-    const LONG: &str = "kernel-step kernel-ramp kernel-sign kernel-band describing-function power-law sine sinh arctan tanh delay-rotation";
-
-    /// The other proofs: each holds, covers the claimed domain, and no false variant of it holds.
-    #[test]
-    fn exact_proofs_hold_and_false_ones_do_not() {
-        let short = CLAIMS.iter().filter(|claim| claim.proof.is_some() && LONG.split(' ').all(|id| id != claim.id));
-        let failures = short.filter_map(|claim| {
-            let word = claim.check(Budget { cases: 20, seed: 1 }).word();
-            let accepted: Vec<_> = claim.prove_falsehoods().filter(|(_, verdict)| verdict.holds()).collect();
-            (word != Word::Proved || !accepted.is_empty())
-                .then(|| format!("{}: {word}, accepts {accepted:?}", claim.id))
-        });
-        assert_eq!(failures.collect::<Vec<_>>(), Vec::<String>::new());
+/// That functions of a single variable vanish between the ends of the part's first side. They take the variable and the
+/// factor of the statement, 1 where it is to be proved.
+pub(super) fn identity<const M: usize>(
+    part: ClaimPart,
+    distortion: Distortion,
+    f: impl Fn(IdentityJet, IdentityJet) -> [IdentityJet; M],
+) -> Verdict {
+    let Some(&ClaimVariable { from, to, .. }) = part.variables.first() else {
+        return Verdict::undecided("no variable");
+    };
+    match prove_zero(|x| f(x, distortion.at(x, [from, to])), from, to, tolerance::PROOF, CELLS) {
+        Ok(proved) => Verdict::Holds(Evidence::identity(part, proved.bound.value(), proved.boxes)),
+        Err(_) => Verdict::undecided("an identity of one variable, 5000 cells"),
     }
+}
+
+/// That each number enclosed is zero to the tolerance.
+pub(super) fn zeros(part: ClaimPart, numbers: &[Interval], boxes: usize) -> Verdict {
+    let bound = numbers.iter().map(|number| number.magnitude()).fold(0.0, f64::max);
+    if bound <= tolerance::PROOF {
+        Verdict::Holds(Evidence::identity(part, bound, boxes))
+    } else {
+        Verdict::undecided("one enclosure")
+    }
+}
+
+/// A value that proves nothing, for an argument outside a domain.
+pub(super) fn unknown<T: Real>() -> T {
+    T::from_f64(f64::NAN)
+}
+
+pub(super) fn no_function<T: Real>() -> DescribingFunction<T> {
+    DescribingFunction { f0: unknown(), p: unknown(), q: unknown() }
 }

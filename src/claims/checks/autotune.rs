@@ -1,9 +1,6 @@
 //! First-order processes with dead time: their oscillation under a relay, and gains of bounded sensitivity.
 
-use super::{
-    Budget, Case, ClaimDomain, ClaimPart, ClaimVariable, Draw, Evidence, Hypothesis, Verdict, Witness, claim, sample,
-    tolerance,
-};
+use super::{Case, ClaimDomain, ClaimPart, ClaimVariable, Draw, Evidence, Verdict, Witness, claim, tolerance};
 use crate::autotune::FirstOrderProcess;
 use crate::control::{LinearProcess, ProcessIntervals};
 use crate::numeric::{Interval, Real};
@@ -14,68 +11,48 @@ use crate::proof::branch_and_bound::{Visit, prove_positive, subdivide};
 
 claim! {
     RELAY_FIRST_ORDER = "relay-first-order" Theorem
-    "a first-order process or an integrator with dead time under a two-level relay: half-periods and extremes in closed form, once a command has stood for a dead time" {
-        not_proved: Some("half-periods are logarithms of the parameters: the program samples them, the kernel checks them"),
-        corrected: Some(|budget| first_order_cycle(budget, 0.9, 1.0, SoughtOscillation::Slowest)),
-        // The output turns at the relay's level: no dead time beyond it.
-        falsified: |budget| first_order_cycle(budget, 0.9, 0.0, SoughtOscillation::Slowest),
-        hypotheses: &[
-            Hypothesis::needed("levels-passed", |budget| first_order_cycle(budget, 1.1, 1.0, SoughtOscillation::Slowest)),
-            Hypothesis::needed("low-for-a-dead-time", |budget| first_order_cycle(budget, 0.9, 1.0, SoughtOscillation::Faster)),
-        ],
-    }
+    "a first-order process or an integrator with dead time under a two-level relay: half-periods and extremes in closed form, once a command has stood for a dead time";
+    cases |all| all.min(200);
+    corrected first_order_cycle(0.9, 1.0, SLOWEST);
+    // The output turns at the relay's level: no dead time beyond it.
+    false first_order_cycle(0.9, 0.0, SLOWEST);
+    needs "levels-passed" first_order_cycle(1.1, 1.0, SLOWEST);
+    needs "low-for-a-dead-time" first_order_cycle(0.9, 1.0, FASTER);
+    not_proved "half-periods are logarithms of the parameters: the program samples them, the kernel checks them";
 }
 
-/// The oscillation of the closed form, or a faster oscillation that a dead time allows.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum SoughtOscillation {
-    Slowest,
-    Faster,
-}
-
-impl SoughtOscillation {
-    /// Shares of the closed form's period between which it is looked for.
-    fn shares(self) -> [f64; 2] {
-        match self {
-            Self::Slowest => [0.9, 1.1],
-            Self::Faster => [0.05, 0.5],
-        }
-    }
-}
+/// Shares of the closed form's period between which its oscillation is looked for, or a faster oscillation that a dead time allows.
+const SLOWEST: [f64; 2] = [0.9, 1.1];
+const FASTER: [f64; 2] = [0.05, 0.5];
 
 /// The slowest enclosed oscillation of those looked for against the closed form. The levels reach up to `reach` of the
 /// outputs at which the process settles; `dead` is the share of the dead time in the closed form.
-fn first_order_cycle(budget: Budget, reach: f64, dead: f64, searched: SoughtOscillation) -> Verdict {
-    sample(Budget { cases: budget.cases.min(200), ..budget }, |draw: &mut Draw| {
-        let (gain, time_s) = (draw.log_uniform("gain", 1e-1, 1e1), draw.log_uniform("time_s", 1e-1, 1e1));
-        let dead_time_s = time_s * draw.log_uniform("dead_over_time", 0.1, 3.0);
-        let (high, low) = (draw.log_uniform("high", 0.1, 10.0), -draw.log_uniform("low", 0.1, 10.0));
-        let level = reach * draw.uniform("level_share", 0.95, 1.0);
-        let integrates = draw.index("integrates", 2) == 1;
-        // Levels as shares of the way to where either command settles, or of the way in a time constant.
-        let (upper, lower) =
-            (level * gain * high, draw.uniform("lower_share", -0.5, 0.5) * level * gain * high.min(-low));
-        let relay =
-            TwoLevelRelay::new(high, low, 0.5 * (upper - lower)).ok()?.with_reference(0.5 * (upper + lower)).ok()?;
-        let (drag, stiffness) = (time_s / gain, if integrates { 0.0 } else { 1.0 / gain });
-        let closed = FirstOrderProcess { drag, stiffness, dead_time_s: dead * dead_time_s, reverse: false };
-        let Ok(cycle) = closed.relay_cycle(&relay, 0.0) else { return Some(Case::truth(false)) };
-        let (period_s, [least, most]) = (cycle.time_high_s + cycle.time_low_s, searched.shares());
-        let plant = TransferFunction::new(&[1.0], &[drag, stiffness]).ok()?.with_delay(dead_time_s).ok()?;
-        let found = orbits(&plant, &relay, Some(least * period_s..=most * period_s)).ok()?;
-        // A faster oscillation need not be there.
-        let Some(orbit) = found.orbits.first() else {
-            return (searched == SoughtOscillation::Slowest).then(|| Case::truth(false));
-        };
-        let size = cycle.maximum - cycle.minimum;
-        let equations = [
-            ("time_high_s", cycle.time_high_s, orbit.time_high_s.midpoint(), period_s),
-            ("time_low_s", cycle.time_low_s, orbit.time_low_s.midpoint(), period_s),
-            ("minimum", cycle.minimum, orbit.minimum.midpoint(), size),
-            ("maximum", cycle.maximum, orbit.maximum.midpoint(), size),
-        ];
-        Some(draw.equations(equations, tolerance::CANCELLING))
-    })
+fn first_order_cycle(draw: &mut Draw, reach: f64, dead: f64, shares: [f64; 2]) -> Option<Case> {
+    let (gain, time_s) = (draw.log_uniform("gain", 1e-1, 1e1), draw.log_uniform("time_s", 1e-1, 1e1));
+    let dead_time_s = time_s * draw.log_uniform("dead_over_time", 0.1, 3.0);
+    let (high, low) = (draw.log_uniform("high", 0.1, 10.0), -draw.log_uniform("low", 0.1, 10.0));
+    let level = reach * draw.uniform("level_share", 0.95, 1.0);
+    let integrates = draw.index("integrates", 2) == 1;
+    // Levels as shares of the way to where either command settles, or of the way in a time constant.
+    let (upper, lower) = (level * gain * high, draw.uniform("lower_share", -0.5, 0.5) * level * gain * high.min(-low));
+    let relay =
+        TwoLevelRelay::new(high, low, 0.5 * (upper - lower)).ok()?.with_reference(0.5 * (upper + lower)).ok()?;
+    let (drag, stiffness) = (time_s / gain, if integrates { 0.0 } else { 1.0 / gain });
+    let closed = FirstOrderProcess { drag, stiffness, dead_time_s: dead * dead_time_s, reverse: false };
+    let Ok(cycle) = closed.relay_cycle(&relay, 0.0) else { return Some(Case::truth(false)) };
+    let (period_s, [least, most]) = (cycle.time_high_s + cycle.time_low_s, shares);
+    let plant = TransferFunction::new(&[1.0], &[drag, stiffness]).ok()?.with_delay(dead_time_s).ok()?;
+    let found = orbits(&plant, &relay, Some(least * period_s..=most * period_s)).ok()?;
+    // A faster oscillation need not be there.
+    let Some(orbit) = found.orbits.first() else { return (shares == SLOWEST).then(|| Case::truth(false)) };
+    let size = cycle.maximum - cycle.minimum;
+    let equations = [
+        ("time_high_s", cycle.time_high_s, orbit.time_high_s.midpoint(), period_s),
+        ("time_low_s", cycle.time_low_s, orbit.time_low_s.midpoint(), period_s),
+        ("minimum", cycle.minimum, orbit.minimum.midpoint(), size),
+        ("maximum", cycle.maximum, orbit.maximum.midpoint(), size),
+    ];
+    Some(draw.equations(equations, tolerance::CANCELLING))
 }
 
 claim! {

@@ -1,6 +1,6 @@
 //! The basis of guaranteed bounds of parameters: the dual, the mean-value form, the chain of stretches.
 
-use super::{Budget, Case, Draw, Verdict, claim, sample, tolerance};
+use super::{Case, Draw, claim, tolerance};
 use crate::experiment::Record;
 use crate::identify::bounded::soundness::{Surrounded, dual_bound};
 
@@ -11,12 +11,12 @@ const MOTIONS: usize = 200;
 
 claim! {
     BOUNDED_DUAL = "bounded-dual" Theorem
-    "Whatever nonnegative multipliers are given, the dual evaluated in intervals is not below the maximum over the rows and the box" {
-        not_proved: Some("the code is compared with whole numbers at drawn rows: its intervals are not evaluated over a range of them"),
-        corrected: Some(|budget| dual(budget, dual_bound)),
-        // In floats, rounded to nearest.
-        falsified: |budget| dual(budget, rounded),
-    }
+    "Whatever nonnegative multipliers are given, the dual evaluated in intervals is not below the maximum over the rows and the box";
+    corrected dual(dual_bound);
+    // In floats, rounded to nearest.
+    false dual(rounded);
+    not_proved
+        "the code is compared with whole numbers at drawn rows: its intervals are not evaluated over a range of them";
 }
 
 type Dual = fn(&[Vec<f64>], &[f64], &[f64], &[f64], &[(f64, f64)]) -> f64;
@@ -41,20 +41,18 @@ fn exact(slopes: &[Vec<f64>], limits: &[f64], y: &[f64], objective: &[f64], side
     sum
 }
 
-fn dual(budget: Budget, dual: Dual) -> Verdict {
-    sample(budget, |draw| {
-        let mut any = || draw.unrecorded(-LARGEST, LARGEST).trunc();
-        let slopes: Vec<Vec<f64>> = (0..4).map(|_| (0..3).map(|_| any()).collect()).collect();
-        let limits: Vec<f64> = (0..4).map(|_| any()).collect();
-        let y: Vec<f64> = (0..4).map(|_| any().abs()).collect();
-        let objective: Vec<f64> = (0..3).map(|_| any()).collect();
-        let sides: Vec<(f64, f64)> = (0..3).map(|_| (any(), any())).map(|(a, b)| (a.min(b), a.max(b))).collect();
-        let (bound, exact) =
-            (dual(&slopes, &limits, &y, &objective, &sides), exact(&slopes, &limits, &y, &objective, &sides));
-        draw.note("bound", bound);
-        // A float of this size is a whole number.
-        Some(Case::truth(bound as i128 >= exact))
-    })
+fn dual(draw: &mut Draw, dual: Dual) -> Option<Case> {
+    let mut any = || draw.unrecorded(-LARGEST, LARGEST).trunc();
+    let slopes: Vec<Vec<f64>> = (0..4).map(|_| (0..3).map(|_| any()).collect()).collect();
+    let limits: Vec<f64> = (0..4).map(|_| any()).collect();
+    let y: Vec<f64> = (0..4).map(|_| any().abs()).collect();
+    let objective: Vec<f64> = (0..3).map(|_| any()).collect();
+    let sides: Vec<(f64, f64)> = (0..3).map(|_| (any(), any())).map(|(a, b)| (a.min(b), a.max(b))).collect();
+    let (bound, exact) =
+        (dual(&slopes, &limits, &y, &objective, &sides), exact(&slopes, &limits, &y, &objective, &sides));
+    draw.note("bound", bound);
+    // A float of this size is a whole number.
+    Some(Case::truth(bound as i128 >= exact))
 }
 
 const INTERVAL_S: f64 = 0.1;
@@ -96,45 +94,35 @@ impl SquareWaveAxis {
     }
 }
 
-fn motions(budget: Budget) -> Budget {
-    Budget { cases: budget.cases.min(MOTIONS), ..budget }
-}
-
 claim! {
     BOUNDED_MEAN_VALUE = "bounded-mean-value" Theorem
-    "Over a box, every output lies in the point's own plus the slopes' ranges times what the unknowns differ" {
-        not_proved: Some("compared with the closed form at drawn axes of linear drag: other laws have none to be compared with"),
-        corrected: Some(|budget| mean_value(budget, false)),
-        // The middles of the slopes in place of their ranges.
-        falsified: |budget| mean_value(budget, true),
-    }
+    "Over a box, every output lies in the point's own plus the slopes' ranges times what the unknowns differ";
+    cases |all| all.min(MOTIONS);
+    corrected mean_value(false);
+    // The middles of the slopes in place of their ranges.
+    false mean_value(true);
+    not_proved "compared with the closed form at drawn axes of linear drag: other laws have none to be compared with";
 }
 
-fn mean_value(budget: Budget, middles: bool) -> Verdict {
-    sample(motions(budget), |draw| {
-        let axis = SquareWaveAxis::draw(draw)?;
-        let width = draw.uniform("half_width", 0.02, 0.1);
-        let outside = axis.surrounded(width).and_then(|all| all.outside(&axis.states, axis.truth, middles));
-        let outside = outside?;
-        Some(draw.at_most(("outside", outside), ("rounding_of_the_closed_form", tolerance::ROUNDING), 1.0))
-    })
+fn mean_value(draw: &mut Draw, middles: bool) -> Option<Case> {
+    let axis = SquareWaveAxis::draw(draw)?;
+    let width = draw.uniform("half_width", 0.02, 0.1);
+    let outside = axis.surrounded(width)?.outside(&axis.states, axis.truth, middles)?;
+    Some(draw.at_most(("outside", outside), ("rounding_of_the_closed_form", tolerance::ROUNDING), 1.0))
 }
 
 claim! {
     BOUNDED_CHAIN = "bounded-chain" Theorem
-    "A motion meets every inequality of the chain of stretches, each of which begins where the one before ended" {
-        not_proved: Some("compared with the closed form at drawn axes of linear drag: other laws have none to be compared with"),
-        corrected: Some(|budget| chain(budget, 0.0)),
-        // A stretch whose first velocity is not the last of the stretch before.
-        falsified: |budget| chain(budget, 0.3),
-    }
+    "A motion meets every inequality of the chain of stretches, each of which begins where the one before ended";
+    cases |all| all.min(MOTIONS);
+    corrected chain(0.0);
+    // A stretch whose first velocity is not the last of the stretch before.
+    false chain(0.3);
+    not_proved "compared with the closed form at drawn axes of linear drag: other laws have none to be compared with";
 }
 
-fn chain(budget: Budget, shift: f64) -> Verdict {
-    sample(motions(budget), |draw| {
-        let axis = SquareWaveAxis::draw(draw)?;
-        let missed = axis.surrounded(0.02).and_then(|all| all.missed(&axis.states, axis.truth, shift));
-        let missed = missed?;
-        Some(draw.at_most(("missed", missed), ("rounding_of_the_closed_form", tolerance::ROUNDING), 1.0))
-    })
+fn chain(draw: &mut Draw, shift: f64) -> Option<Case> {
+    let axis = SquareWaveAxis::draw(draw)?;
+    let missed = axis.surrounded(0.02)?.missed(&axis.states, axis.truth, shift)?;
+    Some(draw.at_most(("missed", missed), ("rounding_of_the_closed_form", tolerance::ROUNDING), 1.0))
 }

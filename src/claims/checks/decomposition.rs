@@ -23,7 +23,7 @@ const VARIABLES: usize = PARAMETERS + 3;
 
 /// A member's output less the sum of its kernels, on one branch, at these settings and at sweeps and places that lie on every
 /// side of all breakpoints.
-fn is_sum<C>(distortion: Distortion, branch: Branch, settings: &[&[f64]]) -> Verdict
+pub fn is_sum<C>(distortion: Distortion, branch: Branch, settings: &[&[f64]]) -> Verdict
 where
     C: Catalogued<Rational> + PiecewiseLinear<Number = Rational>,
 {
@@ -53,47 +53,44 @@ where
 }
 
 /// The proof of a member on a branch.
-type MemberProof = fn(Distortion, Branch) -> Verdict;
+pub type MemberProof = fn(Distortion, Branch) -> Verdict;
+
+/// Rows: a member, and settings of its parameters.
+macro_rules! members {
+    ($($member:ident $(of $points:ty)?: $($setting:expr),+;)+) => {
+        [$((<$member<Rational $(, $points)?>>::NAME, |distortion, branch| {
+            is_sum::<$member<Rational $(, $points)?>>(distortion, branch, &[$(&$setting),+])
+        })),+]
+    };
+}
 
 /// Each member with settings in every order that its parameters can have; a polyline of up to four points, the bias in each of
 /// its segments.
-const MEMBERS: [(&str, MemberProof); 14] = [
-    (Relay::<Rational>::NAME, |d, b| is_sum::<Relay<_>>(d, b, &[&[0.7]])),
-    (RelayDeadZone::<Rational>::NAME, |d, b| is_sum::<RelayDeadZone<_>>(d, b, &[&[0.7, 1.3]])),
-    (RelayHysteresis::<Rational>::NAME, |d, b| is_sum::<RelayHysteresis<_>>(d, b, &[&[0.7, 1.3, 0.2]])),
-    (RelayDeadZoneHysteresis::<Rational>::NAME, |d, b| {
-        is_sum::<RelayDeadZoneHysteresis<_>>(d, b, &[&[0.7, 1.3, 0.5], &[0.7, 0.25, 0.05]])
-    }),
-    (Saturation::<Rational>::NAME, |d, b| is_sum::<Saturation<_>>(d, b, &[&[0.7, 1.3], &[0.7, 0.2]])),
-    (SaturationAsymmetric::<Rational>::NAME, |d, b| {
-        is_sum::<SaturationAsymmetric<_>>(d, b, &[&[0.7, -0.6, 1.3], &[0.7, 0.6, 1.3], &[0.7, -1.3, -0.6]])
-    }),
-    (DeadZone::<Rational>::NAME, |d, b| is_sum::<DeadZone<_>>(d, b, &[&[0.7, 1.3], &[0.7, 0.2]])),
-    (DeadZoneSaturation::<Rational>::NAME, |d, b| is_sum::<DeadZoneSaturation<_>>(d, b, &[&[0.7, 0.6, 1.7]])),
-    (GainChanging::<Rational>::NAME, |d, b| {
-        let settings: [&[f64]; 5] =
-            [&[2.0, 0.7, 1.3], &[0.7, 2.0, 1.3], &[-0.7, 2.0, 1.3], &[-0.7, -2.0, 1.3], &[-2.0, -0.7, 1.3]];
-        is_sum::<GainChanging<_>>(d, b, &settings)
-    }),
-    (Preload::<Rational>::NAME, |d, b| is_sum::<Preload<_>>(d, b, &[&[0.7, 0.4]])),
-    (Quantizer::<Rational>::NAME, |d, b| is_sum::<Quantizer<_>>(d, b, &[&[0.9], &[2.3]])),
-    (Absolute::<Rational>::NAME, |d, b| is_sum::<Absolute<_>>(d, b, &[&[0.7]])),
-    (Polyline::<Rational, Vec<(Rational, Rational)>>::NAME, |d, b| {
-        let settings: [&[f64]; 6] = [
-            &[0.7, -0.3, 0.2, 0.5],
-            &[0.7, -0.3, -1.2, 0.5, 1.1, 0.9],
-            &[0.7, -0.3, 1.2, 0.5, 2.1, 0.9],
-            &[0.7, -0.3, -1.2, 0.5, 1.1, 0.9, 2.2, -0.4],
-            &[0.7, -0.3, -2.2, 0.5, -1.1, 0.9, 0.7, -0.4, 2.3, 0.1],
-            &[0.7, -0.3, -3.2, 0.5, -2.1, 0.9, -1.2, -0.4, -0.3, 0.1],
-        ];
-        is_sum::<Polyline<_, Vec<_>>>(d, b, &settings)
-    }),
-    (Backlash::<Rational>::NAME, |d, b| is_sum::<Backlash<_>>(d, b, &[&[0.7, 0.2], &[0.7, 1.1]])),
-];
+pub const MEMBERS: [(&str, MemberProof); 14] = members! {
+    Relay: [0.7];
+    RelayDeadZone: [0.7, 1.3];
+    RelayHysteresis: [0.7, 1.3, 0.2];
+    RelayDeadZoneHysteresis: [0.7, 1.3, 0.5], [0.7, 0.25, 0.05];
+    Saturation: [0.7, 1.3], [0.7, 0.2];
+    SaturationAsymmetric: [0.7, -0.6, 1.3], [0.7, 0.6, 1.3], [0.7, -1.3, -0.6];
+    DeadZone: [0.7, 1.3], [0.7, 0.2];
+    DeadZoneSaturation: [0.7, 0.6, 1.7];
+    GainChanging: [2.0, 0.7, 1.3], [0.7, 2.0, 1.3], [-0.7, 2.0, 1.3], [-0.7, -2.0, 1.3], [-2.0, -0.7, 1.3];
+    Preload: [0.7, 0.4];
+    Quantizer: [0.9], [2.3];
+    Absolute: [0.7];
+    Polyline of Vec<(Rational, Rational)>:
+        [0.7, -0.3, 0.2, 0.5],
+        [0.7, -0.3, -1.2, 0.5, 1.1, 0.9],
+        [0.7, -0.3, 1.2, 0.5, 2.1, 0.9],
+        [0.7, -0.3, -1.2, 0.5, 1.1, 0.9, 2.2, -0.4],
+        [0.7, -0.3, -2.2, 0.5, -1.1, 0.9, 0.7, -0.4, 2.3, 0.1],
+        [0.7, -0.3, -3.2, 0.5, -2.1, 0.9, -1.2, -0.4, -0.3, 0.1];
+    Backlash: [0.7, 0.2], [0.7, 1.1];
+};
 
 /// Every member on both branches.
-pub(super) fn decomposition(distortion: Distortion) -> Verdict {
+pub fn decomposition(distortion: Distortion) -> Verdict {
     let both =
         |(_, proof): &(&str, MemberProof)| proof(distortion, Branch::Rising).and(|| proof(distortion, Branch::Falling));
     Verdict::all(MEMBERS.iter().map(both))
@@ -121,7 +118,7 @@ fn output(df: DescribingFunction<Rational>, amplitude: Rational) -> [Rational; 3
 /// Every height, bias and amplitude from a unit kernel on the unit sweep, on the rising branch and above: the falling
 /// branch turns the cosine component round, a kernel below is the kernel above its mirror image with the sine component
 /// turned round, and a kernel on both branches is the sum.
-pub(super) fn scaling(distortion: Distortion) -> Verdict {
+pub fn scaling(distortion: Distortion) -> Verdict {
     let one = |make: RationalKernel, side: Side, branches: Branches, is_ramp: bool| {
         let points = [0.25, -0.25, 0.75, -0.75].map(|u| [u, 0.3, 2.0, 0.7]);
         exactly(SCALING, distortion, &points, |[u, bias, amplitude, height]: [Rational; 4], factor: Rational| {
@@ -153,7 +150,7 @@ pub(super) fn scaling(distortion: Distortion) -> Verdict {
 
 /// With its breakpoint beyond the sweep a kernel is a straight line `c + s x` on each branch that counts, with mean `c + s B`,
 /// sine component `s X` and, on a branch alone, cosine component `4 (c + s B)/pi` of either sign: half of each on a branch.
-pub(super) fn beyond(distortion: Distortion) -> Verdict {
+pub fn beyond(distortion: Distortion) -> Verdict {
     let one = |make: RationalKernel, line: fn(Side, bool) -> [f64; 2], side: Side, branches: Branches| {
         let points = [[4.0, 0.3, 2.0, 0.7], [-4.0, 0.3, 2.0, 0.7]];
         exactly(BEYOND, distortion, &points, |[at, bias, amplitude, height]: [Rational; 4], factor: Rational| {
@@ -188,85 +185,4 @@ pub(super) fn beyond(distortion: Distortion) -> Verdict {
         })
     });
     Verdict::all(all)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{
-        BEYOND, Branch, Catalogued, DECOMPOSITION, DeadZone, Distortion, Kernel, MEMBERS, PiecewiseLinear, Rational,
-        SCALING, Sinusoid, beyond, decomposition, is_sum, number, scaling,
-    };
-    use crate::describing::CATALOGUE;
-    use crate::nonlinearity::{NonlinearityError, ParameterSpec};
-
-    /// A dead zone whose kernels are off by a millionth: each in its place, or a single kernel in its slope.
-    struct Off<const SLOPE: bool>(DeadZone<Rational>);
-
-    impl<const SLOPE: bool> Catalogued<Rational> for Off<SLOPE> {
-        const NAME: &'static str = "off";
-        const PARAMETERS: &'static [ParameterSpec] = DeadZone::<Rational>::PARAMETERS;
-        const ORDERED: &'static [(&'static str, &'static str)] = &[];
-        const SPEC: &'static str = "";
-
-        fn from_values(values: &[Rational]) -> Result<Self, NonlinearityError> {
-            DeadZone::from_values(values).map(Self)
-        }
-    }
-
-    impl<const SLOPE: bool> PiecewiseLinear for Off<SLOPE> {
-        type Number = Rational;
-
-        fn value(&self, x: Rational, branch: Branch, sweep: &Sinusoid<Rational>) -> Rational {
-            self.0.value(x, branch, sweep)
-        }
-        fn kernels(&self, sweep: &Sinusoid<Rational>, mut report: impl FnMut(Kernel<Rational>)) {
-            let off = number(1.000_001);
-            self.0.kernels(sweep, |kernel| {
-                report(match kernel {
-                    Kernel::Ramp { at, slope, side, branches } if SLOPE => {
-                        Kernel::Ramp { at, slope: slope * off, side, branches }
-                    }
-                    Kernel::Ramp { at, slope, side, branches } => Kernel::Ramp { at: at * off, slope, side, branches },
-                    other => other,
-                })
-            });
-        }
-    }
-
-    #[test]
-    fn a_millionth_is_seen() {
-        let settings: [&[f64]; 1] = [&[0.7, 1.3]];
-        for branch in [Branch::Rising, Branch::Falling] {
-            assert!(is_sum::<DeadZone<_>>(Distortion::None, branch, &settings).holds());
-            assert!(!is_sum::<Off<false>>(Distortion::None, branch, &settings).holds());
-            assert!(!is_sum::<Off<true>>(Distortion::None, branch, &settings).holds());
-        }
-    }
-
-    #[test]
-    fn every_piecewise_linear_member_is_decomposed() {
-        const SMOOTH: [&str; 6] = ["power", "polynomial", "sine", "sinh", "arctan", "tanh"];
-        let names: Vec<_> = CATALOGUE.iter().map(|entry| entry.name).filter(|name| !SMOOTH.contains(name)).collect();
-        let mut proved = MEMBERS.map(|(name, _)| name).to_vec();
-        proved.sort_by_key(|name| names.iter().position(|known| known == name));
-        assert_eq!(proved, names);
-        for (name, proof) in MEMBERS {
-            for branch in [Branch::Rising, Branch::Falling] {
-                assert!(proof(Distortion::None, branch).holds(), "{name}, {branch:?}");
-                for false_one in Distortion::FALSE {
-                    assert!(!proof(false_one, branch).holds(), "{name}, {branch:?}, {false_one:?}");
-                }
-            }
-        }
-        assert!(decomposition(Distortion::None).holds(), "{}", DECOMPOSITION.name);
-    }
-
-    #[test]
-    fn kernels_scale_and_end() {
-        assert!(scaling(Distortion::None).holds(), "{}", SCALING.name);
-        assert!(beyond(Distortion::None).holds(), "{}", BEYOND.name);
-        for false_one in Distortion::FALSE {
-            assert!(!scaling(false_one).holds() && !beyond(false_one).holds(), "{false_one:?}");
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! Oscillations proved by a rigorous describing function, against a step-by-step integration.
 
-use super::{Budget, Case, Draw, Verdict, claim, sample, tolerance};
+use super::{Case, Draw, claim, tolerance};
 use crate::balance::{HarmonicBalance, LipschitzLoop, OddCharacteristic, ProvedOscillation};
 use crate::describing::ClosedForm;
 use crate::nonlinearity::Tanh;
@@ -13,12 +13,12 @@ pub(super) const STEPS: u32 = 4000;
 
 claim! {
     RIGOROUS_DESCRIBING_FUNCTION = "rigorous-describing-function" Theorem
-    "A box of frequency and harmonics that the loop's balance maps into itself, the harmonics above being a contraction, holds an oscillation" {
-        not_proved: Some("the theorem is proved by hand, each box by two programs"),
-        corrected: Some(|budget| returns(budget, 1.0)),
-        // The oscillation of another loop, whose gain is 0.1 % larger.
-        falsified: |budget| returns(budget, 1.001),
-    }
+    "A box of frequency and harmonics that the loop's balance maps into itself, the harmonics above being a contraction, holds an oscillation";
+    cases |all| all.div_ceil(100);
+    corrected returns(1.0);
+    // The oscillation of another loop, whose gain is 0.1 % larger.
+    false returns(1.001);
+    not_proved "the theorem is proved by hand, each box by two programs";
 }
 
 /// The lags, the gain and the characteristic `tanh(scale x)` of `gain/(s (s + a)(s + b))`.
@@ -38,14 +38,18 @@ impl TanhLoop {
     }
 
     fn proved(&self) -> Option<ProvedOscillation> {
-        let [a, b] = self.poles;
-        let plant = TransferFunction::new(&[self.gain], &[1.0, a + b, a * b, 0.0]).ok()?;
+        let plant = with_integrator(self.poles, self.gain)?;
         let characteristic = Tanh::new(1.0, self.scale).ok()?;
         let balance = HarmonicBalance::new(&plant, |sweep| characteristic.describing_function(sweep)).ok()?;
         let first = *balance.intersections().ok()?.first()?;
         let odd = OddCharacteristic::from_catalogue("tanh", &[1.0, self.scale]).ok()?;
         LipschitzLoop::new(&plant, odd).ok()?.prove_near(first.amplitude, first.omega_rad_s).ok()
     }
+}
+
+/// `gain/(s (s + a)(s + b))`.
+pub(super) fn with_integrator([a, b]: [f64; 2], gain: f64) -> Option<TransferFunction> {
+    TransferFunction::new(&[gain], &[1.0, a + b, a * b, 0.0]).ok()
 }
 
 /// How far from its state at phase zero a loop `x = -gain/(s (s + a)(s + b)) n(x)` is a period later, in shares of the amplitudes of
@@ -66,14 +70,12 @@ pub(super) fn return_error(proved: &ProvedOscillation, [a, b]: [f64; 2], gain: f
 }
 
 /// From the state that a proved box has at phase zero, the loop with its gain times `factor` returns to it after a period.
-fn returns(budget: Budget, factor: f64) -> Verdict {
-    sample(Budget { cases: budget.cases.div_ceil(100), ..budget }, |draw| {
-        let control_loop = TanhLoop::draw(draw);
-        let proved = control_loop.proved()?;
-        draw.note("omega_rad_s", proved.omega_rad_s().midpoint());
-        draw.note("amplitude", proved.amplitude().midpoint());
-        let TanhLoop { poles, gain, scale } = control_loop;
-        let off = return_error(&proved, poles, factor * gain, |x| libm::tanh(scale * x));
-        Some(Case::margin(1.0 - draw.note("off", off) / tolerance::INTEGRATED))
-    })
+fn returns(draw: &mut Draw, factor: f64) -> Option<Case> {
+    let control_loop = TanhLoop::draw(draw);
+    let proved = control_loop.proved()?;
+    draw.note("omega_rad_s", proved.omega_rad_s().midpoint());
+    draw.note("amplitude", proved.amplitude().midpoint());
+    let TanhLoop { poles, gain, scale } = control_loop;
+    let off = return_error(&proved, poles, factor * gain, |x| libm::tanh(scale * x));
+    Some(Case::margin(1.0 - draw.note("off", off) / tolerance::INTEGRATED))
 }

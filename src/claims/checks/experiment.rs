@@ -6,8 +6,9 @@ use nalgebra::{Complex, DMatrix};
 
 use super::algebra::exactly;
 use super::existence::STEPS;
+use super::family::cycle;
 use super::vehicle_proofs::uncoupled_axis;
-use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::describing::ClosedForm;
 use crate::experiment::{Record, Sensor, SimulatedExperiment};
 use crate::features::RecordFeatures;
@@ -46,57 +47,51 @@ impl RelayedAxis {
 
 claim! {
     DELAYS_ADD = "delays-add" Theorem
-    "A delay T_d before the axis and one after it are one delay 2 T_d before it: the same record, T_d later" {
-        not_proved: Some("a shift of time in two simulations: there is no formula of the code to be compared"),
-        printed: AsPrinted::Holds(|budget| delays_add(budget, 2.0, 0.0, 2)),
-        // A single delay for two.
-        falsified: |budget| delays_add(budget, 1.0, 0.0, 2),
-        hypotheses: &[Hypothesis::needed("whole-samples", |budget| delays_add(budget, 2.0, 0.5, 1))],
-    }
+    "A delay T_d before the axis and one after it are one delay 2 T_d before it: the same record, T_d later";
+    cases |all| all.min(200);
+    printed Holds delays_add(2.0, 0.0, 2);
+    // A single delay for two.
+    false delays_add(1.0, 0.0, 2);
+    needs "whole-samples" delays_add(2.0, 0.5, 1);
+    not_proved "a shift of time in two simulations: there is no formula of the code to be compared";
 }
 
 /// Two simulations from rest, the first with sensor and input delay of a whole number of samples and a `fraction`, the
 /// second with `factor` times the delay at the input; the relay switching at samples, or (of `kinds` = 2) else at any time.
-fn delays_add(budget: Budget, factor: f64, fraction: f64, kinds: usize) -> Verdict {
+fn delays_add(draw: &mut Draw, factor: f64, fraction: f64, kinds: usize) -> Option<Case> {
     const RATE_HZ: f64 = 20.0;
-    sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
-        let RelayedAxis { axis, relay } = RelayedAxis::draw(draw, (true, true), 0.0)?;
-        let (late, held) = (1 + draw.index("samples_less_one", 5), draw.index("watching", kinds) == 0);
-        let delay_s = draw.note("delay_s", (late as f64 + fraction) / RATE_HZ);
-        let run = |input_s: f64, sensor_s: f64| -> Option<Record> {
-            let experiment = SimulatedExperiment::new(axis.with_delay_s(input_s).ok()?, relay, RATE_HZ).ok()?;
-            let sensor = Sensor { delay_s: sensor_s, ..Sensor::default() };
-            let experiment = experiment.with_sensor(sensor).ok()?;
-            if held { experiment.held() } else { experiment }.run(30.0).ok()
-        };
-        let (Some(apart), Some(joined)) = (run(delay_s, delay_s), run(factor * delay_s, 0.0)) else {
-            return Some(Case::truth(false));
-        };
-        let reached = joined.output().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let distance = |(x, y): (&f64, &f64)| (x - y).abs();
-        let outputs = apart.output()[late..].iter().zip(joined.output()).map(distance).fold(0.0, f64::max);
-        let commands = apart.input()[late..].iter().zip(joined.input()).map(distance).fold(0.0, f64::max);
-        // Readings between samples cannot be compared; the commands' pattern can.
-        let same = Case::truth(draw.note("difference_of_commands", commands) == 0.0);
-        let compared = if fraction == 0.0 { outputs } else { 0.0 };
-        Some(same.and(draw.equal(("difference_of_readings", compared), 0.0, reached, tolerance::CANCELLING)))
-    })
+    let RelayedAxis { axis, relay } = RelayedAxis::draw(draw, (true, true), 0.0)?;
+    let (late, held) = (1 + draw.index("samples_less_one", 5), draw.index("watching", kinds) == 0);
+    let delay_s = draw.note("delay_s", (late as f64 + fraction) / RATE_HZ);
+    let run = |input_s: f64, sensor_s: f64| -> Option<Record> {
+        let experiment = SimulatedExperiment::new(axis.with_delay_s(input_s).ok()?, relay, RATE_HZ).ok()?;
+        let sensor = Sensor { delay_s: sensor_s, ..Sensor::default() };
+        let experiment = experiment.with_sensor(sensor).ok()?;
+        if held { experiment.held() } else { experiment }.run(30.0).ok()
+    };
+    let (Some(apart), Some(joined)) = (run(delay_s, delay_s), run(factor * delay_s, 0.0)) else {
+        return Some(Case::truth(false));
+    };
+    let reached = joined.output().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let distance = |(x, y): (&f64, &f64)| (x - y).abs();
+    let outputs = apart.output()[late..].iter().zip(joined.output()).map(distance).fold(0.0, f64::max);
+    let commands = apart.input()[late..].iter().zip(joined.input()).map(distance).fold(0.0, f64::max);
+    // Readings between samples cannot be compared; the commands' pattern can.
+    let same = Case::truth(draw.note("difference_of_commands", commands) == 0.0);
+    let compared = if fraction == 0.0 { outputs } else { 0.0 };
+    Some(same.and(draw.equal(("difference_of_readings", compared), 0.0, reached, tolerance::CANCELLING)))
 }
 
 claim! {
     HEAVE = "heave" Theorem
-    "In heave weight less buoyancy acts as the disturbance: with linear drag the switching times give tau_ZE + W - B" {
-        proof: Some(prove_heave),
-        printed: AsPrinted::Holds(|budget| heave(budget, 1.0, &Heave::ASSUMED)),
-        // Buoyancy less weight.
-        falsified: |budget| heave(budget, -1.0, &Heave::ASSUMED),
-        hypotheses: &[
-            Hypothesis::needed("level", |budget| heave(budget, 1.0, &Heave { tilt_rad: 0.3, ..Heave::ASSUMED })),
-            Hypothesis::needed("linear-drag",
-                |budget| heave(budget, 1.0, &Heave { quadratic: 20.0, ..Heave::ASSUMED })),
-            Hypothesis::needed("within-relay", |budget| heave(budget, 1.0, &Heave { surplus: 3.0, ..Heave::ASSUMED })),
-        ],
-    }
+    "In heave weight less buoyancy acts as the disturbance: with linear drag the switching times give tau_ZE + W - B";
+    printed Holds heave(1.0, &Heave::ASSUMED);
+    // Buoyancy less weight.
+    false heave(-1.0, &Heave::ASSUMED);
+    needs "level" heave(1.0, &Heave { tilt_rad: 0.3, ..Heave::ASSUMED });
+    needs "linear-drag" heave(1.0, &Heave { quadratic: 20.0, ..Heave::ASSUMED });
+    needs "within-relay" heave(1.0, &Heave { surplus: 3.0, ..Heave::ASSUMED });
+    proof prove_heave;
 }
 
 /// Weight less buoyancy is the constant force of eq. 5 in heave, and times at which it has mean zero with the command give it.
@@ -124,142 +119,131 @@ impl Heave {
 }
 
 /// The disturbance found from the limit cycle, against weight, buoyancy and external force.
-fn heave(budget: Budget, sign: f64, under: &Heave) -> Verdict {
-    sample(budget, |draw| {
-        let (weight, level) = (draw.uniform("weight_n", 20.0, 60.0), draw.uniform("level_n", 1.0, 3.0));
-        let external = 0.1 * level * draw.uniform("external_over_tenth_of_level", -1.0, 1.0);
-        let buoyancy = weight + level * draw.uniform("buoyancy_over_weight_over_level", 0.3, under.surplus - 0.1);
-        // Along the body's own axis a tilted vehicle feels only a part.
-        let felt = (weight - buoyancy) * libm::cos(under.tilt_rad).powi(2) + external;
-        let axis = DragAxis::mixed(draw.uniform("alpha", 5.0, 10.0), draw.uniform("drag", 1.0, 5.0), under.quadratic);
-        let axis = axis.and_then(|axis| axis.with_disturbance(felt)).and_then(|axis| axis.with_delay_s(0.2));
-        let (axis, relay) =
-            (axis.ok()?, RelayHysteresis::new(level, draw.uniform("half_width_m", 0.1, 0.5), 0.0).ok()?);
-        let Ok(cycle) = limit_cycle(&axis, &relay) else { return Some(Case::truth(false)) };
-        let found = disturbance_from_times(level, cycle.time_positive_s, cycle.time_negative_s);
-        let expected = sign * (external + weight - buoyancy);
-        Some(draw.equal(("disturbance_n", found), expected, level, tolerance::CANCELLING))
-    })
+fn heave(draw: &mut Draw, sign: f64, under: &Heave) -> Option<Case> {
+    let (weight, level) = (draw.uniform("weight_n", 20.0, 60.0), draw.uniform("level_n", 1.0, 3.0));
+    let external = 0.1 * level * draw.uniform("external_over_tenth_of_level", -1.0, 1.0);
+    let buoyancy = weight + level * draw.uniform("buoyancy_over_weight_over_level", 0.3, under.surplus - 0.1);
+    // Along the body's own axis a tilted vehicle feels only a part.
+    let felt = (weight - buoyancy) * libm::cos(under.tilt_rad).powi(2) + external;
+    let (alpha, drag) = (draw.uniform("alpha", 5.0, 10.0), [draw.uniform("drag", 1.0, 5.0), under.quadratic]);
+    let relay = [level, draw.uniform("half_width_m", 0.1, 0.5)];
+    let Some(cycle) = cycle(alpha, drag, felt, 0.2, relay) else { return Some(Case::truth(false)) };
+    let found = disturbance_from_times(level, cycle.time_positive_s, cycle.time_negative_s);
+    let expected = sign * (external + weight - buoyancy);
+    Some(draw.equal(("disturbance_n", found), expected, level, tolerance::CANCELLING))
 }
 
 claim! {
     SURGE = "surge" Theorem
-    "The relay fed with minus the integral of the speed makes surge oscillate as yaw does" {
-        not_proved: Some("two integrations step by step: there is no formula of the code to be compared"),
-        printed: AsPrinted::Holds(|budget| surge(budget, |[_, way]| way)),
-        // The integral with its own sign.
-        falsified: |budget| surge(budget, |[_, way]| -way),
-        hypotheses: &[Hypothesis::needed("integrated", |budget| surge(budget, |[speed, _]| speed))],
-    }
+    "The relay fed with minus the integral of the speed makes surge oscillate as yaw does";
+    cases |all| all.min(200);
+    printed Holds surge(|[_, way]| way);
+    // The integral with its own sign.
+    false surge(|[_, way]| -way);
+    needs "integrated" surge(|[speed, _]| speed);
+    not_proved "two integrations step by step: there is no formula of the code to be compared";
 }
 
 /// The speed's own first-order equation and an integrator, integrated step by step, against the limit cycle of eq. 36.
-fn surge(budget: Budget, measured: fn([f64; 2]) -> f64) -> Verdict {
-    sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
-        let RelayedAxis { axis, relay } = RelayedAxis::draw(draw, (true, true), 0.5)?;
-        let Ok(cycle) = limit_cycle(&axis, &relay) else { return Some(Case::truth(false)) };
-        let moved = |state: [f64; 2], command: f64, time_s: f64| {
-            runge_kutta(state, time_s, |[speed, _]| {
-                let drag = (axis.linear_drag() + axis.quadratic_drag() * speed.abs()) * speed;
-                [(command * relay.level() + axis.disturbance() - drag) / axis.alpha(), speed]
-            })
-        };
-        let step_s = cycle.period_s / f64::from(STEPS);
-        // Where the positive command has just arrived, on the cycle.
-        let mut state = [cycle.lower_switch.velocity, cycle.lower_switch.position];
-        let (mut time_s, mut maximum, mut switchings) = (0.0, state[1], [0.0; 3]);
-        for (command, switching) in [1.0, -1.0, 1.0].into_iter().zip(&mut switchings) {
-            let left = |state: [f64; 2]| command * measured(state) - relay.half_width();
-            let mut next = moved(state, command, step_s);
-            while left(next) < 0.0 && time_s < 2.5 * cycle.period_s {
-                (state, time_s) = (next, time_s + step_s);
-                maximum = maximum.max(state[1]);
-                next = moved(state, command, step_s);
-            }
-            let Some(part_s) = scan::bracketed(&mut |part_s| Some(left(moved(state, command, part_s))), 0.0, step_s)
-            else {
-                return Some(Case::truth(false));
-            };
-            *switching = time_s + part_s;
-            // The command acts on until the opposite one arrives, which no further switching precedes.
-            state = moved(state, command, part_s);
-            let steps = libm::ceil(axis.delay_s() / step_s).max(1.0);
-            (0..steps as u32).for_each(|_| state = moved(state, command, axis.delay_s() / steps));
-            time_s = *switching + axis.delay_s();
+fn surge(draw: &mut Draw, measured: fn([f64; 2]) -> f64) -> Option<Case> {
+    let RelayedAxis { axis, relay } = RelayedAxis::draw(draw, (true, true), 0.5)?;
+    let Ok(cycle) = limit_cycle(&axis, &relay) else { return Some(Case::truth(false)) };
+    let moved = |state: [f64; 2], command: f64, time_s: f64| {
+        runge_kutta(state, time_s, |[speed, _]| {
+            let drag = (axis.linear_drag() + axis.quadratic_drag() * speed.abs()) * speed;
+            [(command * relay.level() + axis.disturbance() - drag) / axis.alpha(), speed]
+        })
+    };
+    let step_s = cycle.period_s / f64::from(STEPS);
+    // Where the positive command has just arrived, on the cycle.
+    let mut state = [cycle.lower_switch.velocity, cycle.lower_switch.position];
+    let (mut time_s, mut maximum, mut switchings) = (0.0, state[1], [0.0; 3]);
+    for (command, switching) in [1.0, -1.0, 1.0].into_iter().zip(&mut switchings) {
+        let left = |state: [f64; 2]| command * measured(state) - relay.half_width();
+        let mut next = moved(state, command, step_s);
+        while left(next) < 0.0 && time_s < 2.5 * cycle.period_s {
+            (state, time_s) = (next, time_s + step_s);
+            maximum = maximum.max(state[1]);
+            next = moved(state, command, step_s);
         }
-        let [rising, falling, next] = switchings;
-        let times = [
-            ("period_s", next - rising, cycle.period_s, cycle.period_s),
-            ("time_negative_s", falling - rising, cycle.time_negative_s, cycle.period_s),
-        ];
-        let reached = Case::truth(maximum <= cycle.maximum + tolerance::INTEGRATED * cycle.amplitude);
-        Some(draw.equations(times, tolerance::INTEGRATED).and(reached))
-    })
+        let Some(part_s) = scan::bracketed(&mut |part_s| Some(left(moved(state, command, part_s))), 0.0, step_s) else {
+            return Some(Case::truth(false));
+        };
+        *switching = time_s + part_s;
+        // The command acts on until the opposite one arrives, which no further switching precedes.
+        state = moved(state, command, part_s);
+        let steps = libm::ceil(axis.delay_s() / step_s).max(1.0);
+        (0..steps as u32).for_each(|_| state = moved(state, command, axis.delay_s() / steps));
+        time_s = *switching + axis.delay_s();
+    }
+    let [rising, falling, next] = switchings;
+    let times = [
+        ("period_s", next - rising, cycle.period_s, cycle.period_s),
+        ("time_negative_s", falling - rising, cycle.time_negative_s, cycle.period_s),
+    ];
+    let reached = Case::truth(maximum <= cycle.maximum + tolerance::INTEGRATED * cycle.amplitude);
+    Some(draw.equations(times, tolerance::INTEGRATED).and(reached))
 }
 
 claim! {
     PROCEDURE = "procedure" Statement
-    "Means over the cycles of a dense record, through condition 40 and Table 3, give what the exact limit cycle's features give" {
-        not_proved: Some("means over the samples of a record: how far they are off is known by order of magnitude alone"),
-        printed: AsPrinted::Holds(|budget| procedure(budget, 1000.0, 1.0, CLEAR)),
-        // Without the delay.
-        falsified: |budget| procedure(budget, 1000.0, 0.0, CLEAR),
-        hypotheses: &[
-            Hypothesis::needed("dense", |budget| procedure(budget, 20.0, 1.0, CLEAR)),
-            Hypothesis::needed("clear-of-condition-40", |budget| procedure(budget, 1000.0, 1.0, (0.97, 1.0))),
-        ],
-    }
+    "Means over the cycles of a dense record, through condition 40 and Table 3, give what the exact limit cycle's features give";
+    cases |all| all.min(200);
+    printed Holds procedure(1000.0, 1.0, CLEAR);
+    // Without the delay.
+    false procedure(1000.0, 0.0, CLEAR);
+    needs "dense" procedure(20.0, 1.0, CLEAR);
+    needs "clear-of-condition-40" procedure(1000.0, 1.0, (0.97, 1.0));
+    not_proved "means over the samples of a record: how far they are off is known by order of magnitude alone";
 }
 
 /// `(x_a + abs(x_0))/X_m`, from and to, where eq. 31 is far from the end of its domain.
 const CLEAR: (f64, f64) = (0.0, 0.8);
 
 /// Parameters from a simulated record, given its samples a period, against those from the limit cycle.
-fn procedure(budget: Budget, samples: f64, delay: f64, condition_40: (f64, f64)) -> Verdict {
-    sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
-        let case = RelayedAxis::draw(draw, (true, true), 0.3)?;
-        let Some(cycle) = case.cycle() else { return Some(Case::truth(false)) };
-        let share = (case.relay.half_width() + cycle.bias.abs()) / cycle.amplitude;
-        if !(condition_40.0..condition_40.1).contains(&share) {
-            return None;
-        }
-        let start = State { position: cycle.lower_switch.position, velocity: cycle.lower_switch.velocity };
-        let record = SimulatedExperiment::new(case.axis, case.relay, samples / cycle.period_s)
-            .and_then(|experiment| experiment.from_state(start))
-            .and_then(|experiment| experiment.run(5.0 * cycle.period_s));
-        let Ok(record) = record else { return Some(Case::truth(false)) };
-        let Ok(found) = RecordFeatures::of(&record) else { return Some(Case::truth(false)) };
-        let exact = Oscillation {
-            relay_level: case.relay.level(),
-            switch_level: case.relay.half_width(),
-            amplitude: cycle.amplitude,
-            bias: cycle.bias,
-            period_s: cycle.period_s,
-            delay_s: case.axis.delay_s(),
-        };
-        let measured = Oscillation::of(&found.features, found.relay.level, delay * case.axis.delay_s());
-        let (exact, measured) = (exact.identify().ok()?, measured.identify().ok()?);
-        // The motion of a sample is a share of the amplitude; the level it is read at is smaller.
-        let ratio = cycle.amplitude / case.relay.half_width();
-        let equations = [
-            ("alpha", measured.alpha, exact.alpha, exact.alpha * ratio),
-            ("beta", measured.beta, exact.beta, exact.beta * ratio),
-            ("beta_xx", measured.beta_quadratic, exact.beta_quadratic, exact.beta_quadratic * ratio),
-        ];
-        Some(draw.equations(equations, tolerance::SAMPLED))
-    })
+fn procedure(draw: &mut Draw, samples: f64, delay: f64, condition_40: (f64, f64)) -> Option<Case> {
+    let case = RelayedAxis::draw(draw, (true, true), 0.3)?;
+    let Some(cycle) = case.cycle() else { return Some(Case::truth(false)) };
+    let share = (case.relay.half_width() + cycle.bias.abs()) / cycle.amplitude;
+    if !(condition_40.0..condition_40.1).contains(&share) {
+        return None;
+    }
+    let start = State { position: cycle.lower_switch.position, velocity: cycle.lower_switch.velocity };
+    let record = SimulatedExperiment::new(case.axis, case.relay, samples / cycle.period_s)
+        .and_then(|experiment| experiment.from_state(start))
+        .and_then(|experiment| experiment.run(5.0 * cycle.period_s));
+    let Ok(record) = record else { return Some(Case::truth(false)) };
+    let Ok(found) = RecordFeatures::of(&record) else { return Some(Case::truth(false)) };
+    let exact = Oscillation {
+        relay_level: case.relay.level(),
+        switch_level: case.relay.half_width(),
+        amplitude: cycle.amplitude,
+        bias: cycle.bias,
+        period_s: cycle.period_s,
+        delay_s: case.axis.delay_s(),
+    };
+    let measured = Oscillation::of(&found.features, found.relay.level, delay * case.axis.delay_s());
+    let (exact, measured) = (exact.identify().ok()?, measured.identify().ok()?);
+    // The motion of a sample is a share of the amplitude; the level it is read at is smaller.
+    let ratio = cycle.amplitude / case.relay.half_width();
+    let equations = [
+        ("alpha", measured.alpha, exact.alpha, exact.alpha * ratio),
+        ("beta", measured.beta, exact.beta, exact.beta * ratio),
+        ("beta_xx", measured.beta_quadratic, exact.beta_quadratic, exact.beta_quadratic * ratio),
+    ];
+    Some(draw.equations(equations, tolerance::SAMPLED))
 }
 
 claim! {
     HARMONIC_BALANCE = "harmonic-balance" Theorem
-    "With a linear plant 1 + N G(jw) = 0 on the true orbit, N being the relay's true gain there and not the sinusoid's" {
-        not_proved: Some("the orbits of a plant of any order come from a search, not from a formula"),
-        printed: AsPrinted::Approximate(|budget| balance(budget, Gain::OfSinusoid, 1.0)),
-        corrected: Some(|budget| balance(budget, Gain::OfOrbit, 1.0)),
-        // The plant without the delay.
-        falsified: |budget| balance(budget, Gain::OfOrbit, 0.0),
-        hypotheses: &[Hypothesis::needed("linear-plant", quadratic_balance)],
-    }
+    "With a linear plant 1 + N G(jw) = 0 on the true orbit, N being the relay's true gain there and not the sinusoid's";
+    cases |all| all.min(100);
+    printed Approximate balance(Gain::OfSinusoid, 1.0);
+    corrected balance(Gain::OfOrbit, 1.0);
+    // The plant without the delay.
+    false balance(Gain::OfOrbit, 0.0);
+    needs "linear-plant" quadratic_balance();
+    not_proved "the orbits of a plant of any order come from a search, not from a formula";
 }
 
 /// Which gain the relay is given.
@@ -312,50 +296,45 @@ fn forced_output(plant: &TransferFunction, level: f64, period_s: f64) -> Option<
     Some(2.0 * first_harmonic(output, &[0.0, 0.5 * period_s], period_s))
 }
 
-fn balance(budget: Budget, gain: Gain, delay: f64) -> Verdict {
-    sample(Budget { cases: budget.cases.min(100), ..budget }, |draw| {
-        let (plant, relay, orbit) = oscillating(draw)?;
-        let period_s = draw.note("period_s", orbit.period_s.midpoint());
-        let (omega, delay_s) = (2.0 * PI / period_s, plant.delay_s());
-        let sine = match gain {
-            Gain::OfOrbit => {
-                // The plant's input steps up at time zero, the command a delay before; the relay sees minus the output.
-                let output = forced_output(&plant, relay.level(), period_s);
-                output.map(|output| square_wave(relay.level(), omega, -delay_s) / -output)
-            }
-            Gain::OfSinusoid => {
-                let df = Sinusoid::new(0.0, orbit.amplitude().midpoint())
-                    .ok()
-                    .and_then(|s| relay.describing_function(&s).ok());
-                df.map(|df| Complex::new(df.p, df.q))
-            }
-        };
-        let plant = plant.with_delay(delay * delay_s).and_then(|plant| plant.response(omega));
-        let (Some(sine), Ok(response)) = (sine, plant) else { return Some(Case::truth(false)) };
-        Some(draw.equal(("one_plus_n_g", (sine * response + 1.0).norm()), 0.0, 1.0, tolerance::CANCELLING))
-    })
+fn balance(draw: &mut Draw, gain: Gain, delay: f64) -> Option<Case> {
+    let (plant, relay, orbit) = oscillating(draw)?;
+    let period_s = draw.note("period_s", orbit.period_s.midpoint());
+    let (omega, delay_s) = (2.0 * PI / period_s, plant.delay_s());
+    let sine = match gain {
+        Gain::OfOrbit => {
+            // The plant's input steps up at time zero, the command a delay before; the relay sees minus the output.
+            let output = forced_output(&plant, relay.level(), period_s);
+            output.map(|output| square_wave(relay.level(), omega, -delay_s) / -output)
+        }
+        Gain::OfSinusoid => {
+            let df =
+                Sinusoid::new(0.0, orbit.amplitude().midpoint()).ok().and_then(|s| relay.describing_function(&s).ok());
+            df.map(|df| Complex::new(df.p, df.q))
+        }
+    };
+    let plant = plant.with_delay(delay * delay_s).and_then(|plant| plant.response(omega));
+    let (Some(sine), Ok(response)) = (sine, plant) else { return Some(Case::truth(false)) };
+    Some(draw.equal(("one_plus_n_g", (sine * response + 1.0).norm()), 0.0, 1.0, tolerance::CANCELLING))
 }
 
 /// Quadratic drag with the linear drag of the same first harmonic.
-fn quadratic_balance(budget: Budget) -> Verdict {
-    sample(budget, |draw| {
-        let case = RelayedAxis::draw(draw, (false, true), 0.0)?;
-        let (axis, level) = (case.axis, case.relay.level());
-        let (axis, cycle) =
-            axis.with_disturbance(0.0).ok().and_then(|axis| Some((axis, limit_cycle(&axis, &case.relay).ok()?)))?;
-        let at = |switch: crate::orbit::Switching<f64>| State { position: switch.position, velocity: switch.velocity };
-        let (half, period_s) = (cycle.time_positive_s, cycle.period_s);
-        let position = |t: f64| {
-            let falling = axis.advance(at(cycle.upper_switch), -level, (t - half).max(0.0));
-            let rising = axis.advance(at(cycle.lower_switch), level, t.min(half));
-            if t < half { rising.position } else { falling.position }
-        };
-        // From rest to rest the motion is smooth; the ends cut it there too.
-        let omega = 2.0 * PI / period_s;
-        let output = first_harmonic(position, &[0.0, half, period_s], period_s);
-        let drag = 8.0 / (3.0 * PI) * axis.quadratic_drag() * output.norm() * omega;
-        let response = Complex::new(-axis.alpha() * omega * omega, drag * omega).inv();
-        let gain = square_wave(level, omega, 0.0) / -output;
-        Some(draw.equal(("one_plus_n_g", (gain * response + 1.0).norm()), 0.0, 1.0, tolerance::CANCELLING))
-    })
+fn quadratic_balance(draw: &mut Draw) -> Option<Case> {
+    let case = RelayedAxis::draw(draw, (false, true), 0.0)?;
+    let (axis, level) = (case.axis, case.relay.level());
+    let (axis, cycle) =
+        axis.with_disturbance(0.0).ok().and_then(|axis| Some((axis, limit_cycle(&axis, &case.relay).ok()?)))?;
+    let at = |switch: crate::orbit::Switching<f64>| State { position: switch.position, velocity: switch.velocity };
+    let (half, period_s) = (cycle.time_positive_s, cycle.period_s);
+    let position = |t: f64| {
+        let falling = axis.advance(at(cycle.upper_switch), -level, (t - half).max(0.0));
+        let rising = axis.advance(at(cycle.lower_switch), level, t.min(half));
+        if t < half { rising.position } else { falling.position }
+    };
+    // From rest to rest the motion is smooth; the ends cut it there too.
+    let omega = 2.0 * PI / period_s;
+    let output = first_harmonic(position, &[0.0, half, period_s], period_s);
+    let drag = 8.0 / (3.0 * PI) * axis.quadratic_drag() * output.norm() * omega;
+    let response = Complex::new(-axis.alpha() * omega * omega, drag * omega).inv();
+    let gain = square_wave(level, omega, 0.0) / -output;
+    Some(draw.equal(("one_plus_n_g", (gain * response + 1.0).norm()), 0.0, 1.0, tolerance::CANCELLING))
 }

@@ -6,6 +6,8 @@ use crate::nonlinearity::{
     Backlash, Branch, Characteristic, Custom, DeadZone, NonlinearityError, Preload, Quantizer, Relay, RelayDeadZone,
     RelayDeadZoneHysteresis, RelayHysteresis, Saturation, SaturationAsymmetric, Sinusoid,
 };
+use crate::orbit::{LimitCycle, limit_cycle};
+use crate::plant::DragAxis;
 
 /// Odd, nondecreasing, without memory: the hypothesis of the corrected lemma 1 (but for vanishing on the sweep).
 pub(super) fn odd_nondecreasing(draw: &mut Draw) -> Result<Boxed<f64>, NonlinearityError> {
@@ -74,6 +76,18 @@ pub(super) fn closed_is_integral(
         ("y_q1", closed.q * amplitude, integral.q * amplitude, scale),
     ];
     Some(draw.equations(equations, tolerance::QUADRATURE))
+}
+
+/// The limit cycle of an axis with linear and quadratic drag, a disturbance and a delay under a relay of a level and a half-width.
+pub(super) fn cycle(
+    alpha: f64,
+    [linear, quadratic]: [f64; 2],
+    disturbance: f64,
+    delay_s: f64,
+    [level, half_width]: [f64; 2],
+) -> Option<LimitCycle<f64>> {
+    let axis = DragAxis::mixed(alpha, linear, quadratic).ok()?.with_disturbance(disturbance).ok()?;
+    limit_cycle(&axis.with_delay_s(delay_s).ok()?, &RelayHysteresis::new(level, half_width, 0.0).ok()?).ok()
 }
 
 /// Mean output of a function without memory and without kinks.

@@ -1,10 +1,10 @@
 //! The kernels that the piecewise-linear catalogue is made of: closed form equals integral.
 
+use super::algebra::no_function;
 use super::band::as_coded;
-use super::enclosure::no_function;
 use super::family::closed_is_integral;
 use super::single::SingleKernel;
-use super::{Budget, ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, claim, sample};
+use super::{Case, ClaimPart, ClaimVariable, Distortion, Draw, Evidence, Verdict, claim};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm};
 use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
 use crate::numeric::Real;
@@ -15,17 +15,15 @@ use std::sync::LazyLock;
 type KernelMaker = fn(f64, f64, Side, Branches) -> Kernel<f64>;
 
 /// Closed form times `factor` against quadrature, both sides, each branch, breakpoints on the sweep and beyond.
-fn kernel_is_integral(budget: Budget, make: KernelMaker, factor: f64) -> Verdict {
-    sample(budget, |draw| {
-        let (bias, amplitude) = (draw.uniform("bias", -1.0, 1.0), draw.uniform("amplitude", 0.5, 2.0));
-        let at = draw.uniform("at", -3.0, 3.0);
-        let upper = at + draw.uniform("width", 0.01, 3.0);
-        let side = [Side::Above, Side::Below][draw.index("side", 2)];
-        let branches = [Branches::Both, Branches::Rising, Branches::Falling][draw.index("branches", 3)];
-        let single = SingleKernel(make(at, upper, side, branches));
-        let sweep = Sinusoid::new(bias, amplitude).ok()?;
-        closed_is_integral(draw, &single, &sweep, 10.0, factor)
-    })
+fn kernel_is_integral(draw: &mut Draw, make: KernelMaker, factor: f64) -> Option<Case> {
+    let (bias, amplitude) = (draw.uniform("bias", -1.0, 1.0), draw.uniform("amplitude", 0.5, 2.0));
+    let at = draw.uniform("at", -3.0, 3.0);
+    let upper = at + draw.uniform("width", 0.01, 3.0);
+    let side = [Side::Above, Side::Below][draw.index("side", 2)];
+    let branches = [Branches::Both, Branches::Rising, Branches::Falling][draw.index("branches", 3)];
+    let single = SingleKernel(make(at, upper, side, branches));
+    let sweep = Sinusoid::new(bias, amplitude).ok()?;
+    closed_is_integral(draw, &single, &sweep, 10.0, factor)
 }
 
 /// Every ratio on the sweep.
@@ -45,11 +43,10 @@ macro_rules! kernels {
     ($($constant:ident = $id:literal $statement:literal, $kernel:ident $proof:expr;)+) => {
         $(
             claim! {
-                $constant = $id Identity $statement {
-                    corrected: Some(|budget| kernel_is_integral(budget, $kernel, 1.0)),
-                    falsified: |budget| kernel_is_integral(budget, $kernel, 1.000_01),
-                    proof: Some($proof),
-                }
+                $constant = $id Identity $statement;
+                corrected kernel_is_integral($kernel, 1.0);
+                false kernel_is_integral($kernel, 1.000_01);
+                proof $proof;
             }
         )+
     };
@@ -70,21 +67,20 @@ kernels! {
 }
 
 pub(super) fn prove_kernel(form: KernelForm, distortion: Distortion, part: ClaimPart) -> Verdict {
-    type ProvedKernel = LazyLock<Result<Proved<1>, NotProved<1>>>;
-    static STEP: ProvedKernel = LazyLock::new(|| KernelForm::Step.prove());
-    static RAMP: ProvedKernel = LazyLock::new(|| KernelForm::Ramp.prove());
-    static SIGN: ProvedKernel = LazyLock::new(|| KernelForm::Sign.prove());
-    static BAND: ProvedKernel = LazyLock::new(|| KernelForm::Band.prove());
+    static PROVED: [LazyLock<Result<Proved<1>, NotProved<1>>>; 4] = [
+        LazyLock::new(|| KernelForm::Step.prove()),
+        LazyLock::new(|| KernelForm::Ramp.prove()),
+        LazyLock::new(|| KernelForm::Sign.prove()),
+        LazyLock::new(|| KernelForm::Band.prove()),
+    ];
     let verdict = |proved: &Result<Proved<1>, _>| match proved {
         Ok(proved) => Verdict::Holds(Evidence::identity(part.clone(), proved.bound.value(), proved.boxes)),
         Err(_) => Verdict::undecided("60000 cells at most"),
     };
-    match (distortion, form) {
-        (Distortion::None, KernelForm::Step) => verdict(&STEP),
-        (Distortion::None, KernelForm::Ramp) => verdict(&RAMP),
-        (Distortion::None, KernelForm::Sign) => verdict(&SIGN),
-        (Distortion::None, KernelForm::Band) => verdict(&BAND),
-        (distorted, form) => verdict(&form.prove_changed(&distorted)),
+    if distortion == Distortion::None {
+        verdict(&PROVED[form as usize])
+    } else {
+        verdict(&form.prove_changed(&distortion))
     }
 }
 

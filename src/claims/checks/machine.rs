@@ -7,13 +7,9 @@ use std::collections::{HashSet, VecDeque};
 use super::{ClaimPart, Evidence, Verdict, Witness};
 use crate::on_board::{Coordinate, Key, Observation, Observer, Phase, Protocol, Supervisor};
 
-const POSITION: ClaimPart = ClaimPart::named("positions");
-const HEADING: ClaimPart = ClaimPart::named("headings");
-const SPEED: ClaimPart = ClaimPart::named("speeds");
-const COARSE: ClaimPart = ClaimPart::named("coarse");
-/// The first lattices of [`Lattice::all`], and all of them: readings and times off them are not spoken of.
-pub(super) const LATTICES: &[ClaimPart] = &[POSITION, HEADING, SPEED];
-pub(super) const WITH_COARSE: &[ClaimPart] = &[POSITION, HEADING, SPEED, COARSE];
+/// How many of [`Lattice::all`] a claim is about: readings and times off them are not spoken of.
+pub(super) const LATTICES: usize = 3;
+pub(super) const WITH_COARSE: usize = 4;
 
 /// A finite world: an experiment, and the samples that may come.
 pub(super) struct Lattice {
@@ -33,7 +29,7 @@ const OBSERVATIONS: [Observation; 4] =
     [Observation::Between, Observation::Unsteady, Observation::Steady, Observation::Condition40];
 
 impl Lattice {
-    fn of(part: ClaimPart, coordinate: Coordinate, half_width: f64, readings: &'static [f64]) -> Self {
+    fn of(name: &'static str, coordinate: Coordinate, half_width: f64, readings: &'static [f64]) -> Self {
         let protocol = Protocol {
             neutral_command: 0.5,
             lowest_command: -1.0,
@@ -50,19 +46,19 @@ impl Lattice {
             factor: 2.0,
             ..Protocol::new(coordinate, 1.0, half_width, 1.5 * half_width, 0.5)
         };
-        Self { part, protocol, readings }
+        Self { part: ClaimPart::named(name), protocol, readings }
     }
 
     /// A lattice for each kind of coordinate, and a lattice with half-periods. All numbers are whole or halves: sums are exact.
     pub(super) fn all() -> [Self; 4] {
-        let Self { part, protocol, readings } = Self::of(COARSE, Coordinate::Position, 2.0, &[-2.0, 1.0, 2.0]);
-        let protocol = Protocol { dwell_s: 1.0, patience_s: 5.0, duration_s: 10.0, attempts: 2, ..protocol };
+        let coarse = Self::of("coarse", Coordinate::Position, 2.0, &[-2.0, 1.0, 2.0]);
+        let protocol = Protocol { dwell_s: 1.0, patience_s: 5.0, duration_s: 10.0, attempts: 2, ..coarse.protocol };
         let protocol = Protocol { resolution: 1.0, largest_rate: 3.0, ..protocol };
         [
-            Self::of(POSITION, Coordinate::Position, 1.0, &[-2.0, -1.0, 0.0, 1.0, 2.0]),
-            Self::of(HEADING, Coordinate::HeadingDegrees, 60.0, &[0.0, 60.0, 120.0, 180.0, 240.0, 300.0]),
-            Self::of(SPEED, Coordinate::Speed, 1.0, &[-1.0, 0.0, 1.0]),
-            Self { part, protocol, readings },
+            Self::of("positions", Coordinate::Position, 1.0, &[-2.0, -1.0, 0.0, 1.0, 2.0]),
+            Self::of("headings", Coordinate::HeadingDegrees, 60.0, &[0.0, 60.0, 120.0, 180.0, 240.0, 300.0]),
+            Self::of("speeds", Coordinate::Speed, 1.0, &[-1.0, 0.0, 1.0]),
+            Self { protocol, ..coarse },
         ]
     }
 }
@@ -131,7 +127,7 @@ impl ObservedMotion {
 /// The machine under its clock.
 #[derive(Clone, Copy)]
 pub(super) struct Machine {
-    supervisor: Supervisor<f64>,
+    pub(super) supervisor: Supervisor<f64>,
     defect: Defect,
     /// Command upon the last event.
     pub(super) command: f64,
@@ -163,27 +159,12 @@ impl Machine {
         Some(Self { supervisor, defect, command, time_s: 0.0, seen: None, motion })
     }
 
-    pub(super) fn phase(&self) -> Phase {
-        self.supervisor.phase()
-    }
-    pub(super) fn position(&self) -> Option<f64> {
-        self.supervisor.position()
-    }
-    pub(super) fn half_width(&self) -> f64 {
-        self.supervisor.half_width()
-    }
-    pub(super) fn switched_s(&self) -> Option<f64> {
-        self.supervisor.switched_s()
-    }
-    pub(super) fn farthest(&self) -> Option<f64> {
-        self.supervisor.farthest()
-    }
     fn key(&self) -> (Key, [u64; 4]) {
         let ObservedMotion { anchor, moved_s, longest_s, last_s, .. } = self.motion;
         (self.supervisor.key(), [anchor, moved_s, longest_s, last_s].map(f64::to_bits))
     }
     pub(super) fn running(&self) -> bool {
-        self.phase() == Phase::Running
+        self.supervisor.phase() == Phase::Running
     }
 
     /// The machine after an event.
@@ -202,8 +183,8 @@ impl Machine {
                 self.time_s = if self.seen.is_some() { self.time_s + interval_s } else { 0.0 };
                 let before = self.supervisor;
                 let _ = self.supervisor.step(reading, self.time_s, &mut Says(observation));
-                let over = matches!(self.phase(), Phase::Failed(fault) if fault.code() == "overtime");
-                let forgiven = self.defect == Defect::Forgives && matches!(self.phase(), Phase::Failed(_));
+                let over = matches!(self.supervisor.phase(), Phase::Failed(fault) if fault.code() == "overtime");
+                let forgiven = self.defect == Defect::Forgives && matches!(self.supervisor.phase(), Phase::Failed(_));
                 if (over && self.defect == Defect::Restarts || forgiven)
                     && let Ok(fresh) = Supervisor::new(*self.supervisor.protocol())
                 {
@@ -221,7 +202,7 @@ impl Machine {
 
     /// Follows the motion over a step.
     fn follow(&mut self, before: &Supervisor<f64>) {
-        let Some(position) = self.position().filter(|_| self.running()) else { return };
+        let Some(position) = self.supervisor.position().filter(|_| self.running()) else { return };
         let (protocol, time_s, motion) = (self.supervisor.protocol(), self.time_s, &mut self.motion);
         let high = |supervisor: &Supervisor<f64>| supervisor.command() > protocol.neutral_command;
         if self.seen.is_none() || motion.gone(protocol, before.half_width(), position) {
@@ -242,7 +223,7 @@ impl Machine {
     /// The machine's command now, spoilt by its defect.
     fn answer(&self) -> f64 {
         let (command, protocol) = (self.supervisor.command(), self.supervisor.protocol());
-        let Some(position) = self.position().filter(|_| self.running()) else { return command };
+        let Some(position) = self.supervisor.position().filter(|_| self.running()) else { return command };
         let raised = protocol.relay_level * protocol.factor.powi(i32::from(self.supervisor.attempt()) - 1);
         let with = |level: f64, positive: bool| protocol.neutral_command + if positive { level } else { -level };
         match self.defect {
@@ -256,15 +237,26 @@ impl Machine {
     }
 }
 
-/// A property that must hold of a machine and of all its successors; the successor that shows that it does not, or none for the machine.
-pub(super) type Property = fn(&Lattice, &Machine, &[(MachineEvent, Machine)]) -> Result<(), Option<usize>>;
+/// A property of the machine: of each state with its successors, and of each step.
+#[derive(Clone, Copy)]
+pub(super) struct Property {
+    pub(super) state: fn(&Lattice, &Machine, &[(MachineEvent, Machine)]) -> bool,
+    pub(super) step: fn(&Lattice, &Machine, MachineEvent, &Machine) -> bool,
+}
+
+impl Property {
+    /// Of steps alone.
+    pub(super) const fn step(step: fn(&Lattice, &Machine, MachineEvent, &Machine) -> bool) -> Self {
+        Self { state: |_, _, _| true, step }
+    }
+}
 
 /// States beyond this are not waited for.
 const MOST_STATES: usize = 3_000_000;
 
-/// Every reachable state of the lattices that the parts name, breadth first, for the shortest witness.
-pub(super) fn explore(parts: &[ClaimPart], defect: Defect, property: Property) -> Verdict {
-    Verdict::all(Lattice::all().iter().take(parts.len()).map(|lattice| explore_one(lattice, defect, property)))
+/// Every reachable state of the first lattices, breadth first, for the shortest witness.
+pub(super) fn explore(lattices: usize, defect: Defect, property: Property) -> Verdict {
+    Verdict::all(Lattice::all().iter().take(lattices).map(|lattice| explore_one(lattice, defect, property)))
 }
 
 fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict {
@@ -280,8 +272,9 @@ fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict
         let machine = states[index].0;
         successors.clear();
         successors.extend(events(lattice, &machine).map(|event| (event, machine.after(event))));
-        if let Err(offender) = property(lattice, &machine, &successors) {
-            let mut path = Vec::from_iter(offender.map(|offender| successors[offender]));
+        let offender = successors.iter().find(|(event, after)| !(property.step)(lattice, &machine, *event, after));
+        if offender.is_some() || !(property.state)(lattice, &machine, &successors) {
+            let mut path = Vec::from_iter(offender.copied());
             let mut at = index;
             while at != 0 {
                 path.push((states[at].2, states[at].0));

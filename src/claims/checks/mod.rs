@@ -2,20 +2,20 @@
 
 use super::distortion::Distortion;
 use super::evidence::{ClaimDomain, ClaimPart, ClaimVariable, Evidence, Verdict, Witness};
-use super::registry::{AsPrinted, Hypothesis, claim};
-use super::sampling::{Budget, Case, Draw, sample};
+use super::registry::{Hypothesis, claim, drawn};
+use super::sampling::{Case, Draw};
 use super::tolerance;
 
 mod algebra;
-mod band;
-mod decomposition;
-mod enclosure;
+pub mod band;
+pub mod decomposition;
 mod family;
 mod machine;
-mod single;
-mod step;
-mod vehicle_proofs;
+pub mod single;
+pub mod step;
+pub mod vehicle_proofs;
 
+pub(super) use algebra::exactly;
 pub(super) use single::SingleKernel;
 
 pub(super) mod autotune;
@@ -30,7 +30,7 @@ pub mod method_bias;
 pub(super) mod on_board;
 pub(super) mod orbit_proofs;
 pub(super) mod orbits;
-pub(super) mod power_law;
+pub mod power_law;
 pub(super) mod quantisation;
 pub(super) mod relay;
 pub(super) mod relay_state;

@@ -1,16 +1,18 @@
 //! The state machine of the experiment on board, every state of it over a lattice of readings and times.
 
 use super::claim;
-use super::machine::{Defect, INTERVALS_S, LATTICES, Lattice, Machine, MachineEvent, SOUND, WITH_COARSE, explore};
+use super::machine::{
+    Defect, INTERVALS_S, LATTICES, Lattice, Machine, MachineEvent, Property, SOUND, WITH_COARSE, explore,
+};
 use crate::on_board::{Coordinate, Observation, Phase, Protocol};
 
 /// A property of every state of the machine, and a defect that takes it away.
 macro_rules! explored {
-    ($constant:ident = $id:literal $statement:literal $property:ident over $parts:ident, but not $defect:ident) => {
+    ($constant:ident = $id:literal $statement:literal $property:expr, over $lattices:ident, but not $defect:ident) => {
         claim! {
             $constant = $id Theorem $statement {
-                corrected: Some(|_| explore($parts, Defect::None, $property)),
-                falsified: |_| explore($parts, Defect::$defect, $property),
+                corrected: Some(|_| explore($lattices, Defect::None, $property)),
+                falsified: |_| explore($lattices, Defect::$defect, $property),
             }
         }
     };
@@ -19,114 +21,99 @@ macro_rules! explored {
 explored! {
     ON_BOARD_ENDS = "on-board-ends"
     "Whatever the samples, the experiment ends within its time, and until that or its patience is over one more sample may complete it"
-    ends over LATTICES, but not Restarts
+    Property { state: may_succeed, step: in_time }, over LATTICES, but not Restarts
 }
 
-fn ends(lattice: &Lattice, machine: &Machine, successors: &[(MachineEvent, Machine)]) -> Result<(), Option<usize>> {
-    let duration_s = lattice.protocol.duration_s;
-    for (index, (event, after)) in successors.iter().enumerate() {
-        // A running machine has accepted its sample, which was later than the sample before: there are finitely many.
-        let later =
-            matches!(event, MachineEvent::Sample { .. }) && (after.time_s > machine.time_s || machine.seen.is_none());
-        let in_time = match *event {
-            MachineEvent::Tick { age_s } => machine.seen.is_none() || machine.time_s + age_s < duration_s,
-            _ => later && after.time_s < duration_s,
-        };
-        if after.running() && !in_time {
-            return Err(Some(index));
-        }
-    }
+/// A running machine has accepted its sample, which was later than the sample before: there are finitely many.
+fn in_time(lattice: &Lattice, machine: &Machine, event: MachineEvent, after: &Machine) -> bool {
+    let (duration_s, first) = (lattice.protocol.duration_s, machine.seen.is_none());
+    let in_time = match event {
+        MachineEvent::Tick { age_s } => first || machine.time_s + age_s < duration_s,
+        MachineEvent::Sample { .. } => (after.time_s > machine.time_s || first) && after.time_s < duration_s,
+        MachineEvent::Abort => false,
+    };
+    in_time || !after.running()
+}
+
+fn may_succeed(lattice: &Lattice, machine: &Machine, successors: &[(MachineEvent, Machine)]) -> bool {
     let next_s = machine.time_s + INTERVALS_S[0];
-    let time_left = next_s < duration_s && !machine.motion.still(&lattice.protocol, next_s);
-    let may_succeed = successors.iter().any(|(_, after)| after.phase() == Phase::Done);
-    if machine.running() && time_left && !may_succeed { Err(None) } else { Ok(()) }
+    let time_left = next_s < lattice.protocol.duration_s && !machine.motion.still(&lattice.protocol, next_s);
+    let succeeds = |(_, after): &(MachineEvent, Machine)| after.supervisor.phase() == Phase::Done;
+    !machine.running() || !time_left || successors.iter().any(succeeds)
 }
 
 explored! {
     ON_BOARD_SWITCHES = "on-board-switches"
     "Two switchings are the least dwell apart and both half-widths, crossed at no more than the largest rate: no chattering"
-    switches over LATTICES, but not NoHysteresis
+    Property::step(switches), over LATTICES, but not NoHysteresis
 }
 
-fn switches(lattice: &Lattice, machine: &Machine, successors: &[(MachineEvent, Machine)]) -> Result<(), Option<usize>> {
+fn switches(lattice: &Lattice, machine: &Machine, _: MachineEvent, after: &Machine) -> bool {
     let (protocol, neutral) = (&lattice.protocol, lattice.protocol.neutral_command);
-    let Some(before) = machine.position().filter(|_| machine.running()) else { return Ok(()) };
-    for (index, (_, after)) in successors.iter().enumerate() {
-        let Some(position) = after.position().filter(|_| after.running()) else { continue };
-        let up = machine.command < neutral && after.command > neutral;
-        let down = machine.command > neutral && after.command < neutral;
-        // An upward switching lies beyond the upper threshold, a downward switching beyond the lower.
-        let crossed = (!up || position <= protocol.reference - machine.half_width())
-            && (!down || position >= protocol.reference + machine.half_width());
-        // The rate bounds the motion of a coordinate that is measured; a speed's integral moves by the speed.
-        let moved = (position - before).abs();
-        let measured = protocol.coordinate != Coordinate::Speed;
-        let slow = !measured || moved <= protocol.largest_rate * (after.time_s - machine.time_s);
-        let dwelt =
-            !(up || down) || machine.switched_s().is_none_or(|since_s| after.time_s - since_s >= protocol.dwell_s);
-        if !(crossed && slow && dwelt) {
-            return Err(Some(index));
-        }
-    }
-    Ok(())
+    let at = |machine: &Machine| machine.supervisor.position().filter(|_| machine.running());
+    let (Some(before), Some(position)) = (at(machine), at(after)) else { return true };
+    let up = machine.command < neutral && after.command > neutral;
+    let down = machine.command > neutral && after.command < neutral;
+    // An upward switching lies beyond the upper threshold, a downward switching beyond the lower.
+    let half_width = machine.supervisor.half_width();
+    let crossed =
+        (!up || position <= protocol.reference - half_width) && (!down || position >= protocol.reference + half_width);
+    // The rate bounds the motion of a coordinate that is measured; a speed's integral moves by the speed.
+    let measured = protocol.coordinate != Coordinate::Speed;
+    let slow = (position - before).abs() <= protocol.largest_rate * (after.time_s - machine.time_s);
+    let dwelt = machine.supervisor.switched_s().is_none_or(|since_s| after.time_s - since_s >= protocol.dwell_s);
+    crossed && (slow || !measured) && (dwelt || !(up || down))
 }
 
 explored! {
     ON_BOARD_ABORT = "on-board-abort"
     "From every state an abort gives the neutral command at once, and nothing but a restart changes that"
-    abort over LATTICES, but not IgnoresAbort
+    Property::step(abort), over LATTICES, but not IgnoresAbort
 }
 
-fn abort(lattice: &Lattice, machine: &Machine, successors: &[(MachineEvent, Machine)]) -> Result<(), Option<usize>> {
-    let safe = |after: &Machine| !after.running() && after.command == lattice.protocol.neutral_command;
-    let wrong = successors.iter().position(|(event, after)| match event {
-        MachineEvent::Abort => !safe(after),
-        _ => machine.phase() == Phase::Aborted && (after.phase() != Phase::Aborted || !safe(after)),
-    });
-    wrong.map_or(Ok(()), |index| Err(Some(index)))
+fn abort(lattice: &Lattice, machine: &Machine, event: MachineEvent, after: &Machine) -> bool {
+    let safe = !after.running() && after.command == lattice.protocol.neutral_command;
+    let aborted = |machine: &Machine| machine.supervisor.phase() == Phase::Aborted;
+    match event {
+        MachineEvent::Abort => safe,
+        _ => !aborted(machine) || aborted(after) && safe,
+    }
 }
 
 explored! {
     ON_BOARD_LIMITS = "on-board-limits"
     "The command is within its limits in every state, after every change of the relay too, and neutral unless running"
-    limits over LATTICES, but not Unclamped
+    Property { state: limits, step: |_, _, _, _| true }, over LATTICES, but not Unclamped
 }
 
-fn limits(lattice: &Lattice, machine: &Machine, _: &[(MachineEvent, Machine)]) -> Result<(), Option<usize>> {
+fn limits(lattice: &Lattice, machine: &Machine, _: &[(MachineEvent, Machine)]) -> bool {
     let protocol = &lattice.protocol;
     let within = (protocol.lowest_command..=protocol.highest_command).contains(&machine.command);
-    let neutral = machine.running() && machine.seen.is_some() || machine.command == protocol.neutral_command;
-    if within && neutral { Ok(()) } else { Err(None) }
+    within && (machine.running() && machine.seen.is_some() || machine.command == protocol.neutral_command)
 }
 
 explored! {
     ON_BOARD_FAULTS = "on-board-faults"
     "A sample that a sound sensor and clock cannot have given is a fault by its name, a sound one is none, and faults stay"
-    faults over LATTICES, but not Forgives
+    Property::step(faults), over LATTICES, but not Forgives
 }
 
 /// Faults of sensor and clock, rather than of the experiment.
 const OF_A_SAMPLE: [&str; 7] = ["not-finite", "time-order", "gap", "jump", "stuck", "excursion", "wrong-way"];
 
-fn faults(lattice: &Lattice, machine: &Machine, successors: &[(MachineEvent, Machine)]) -> Result<(), Option<usize>> {
-    let wrong = successors.iter().position(|(event, after)| {
-        let expected = match *event {
-            MachineEvent::Sample { reading, interval_s, .. } => expected(lattice, machine, reading, interval_s),
-            MachineEvent::Tick { age_s } => expected_of_time(machine, age_s),
-            MachineEvent::Abort => return false,
-        };
-        let found = match after.phase() {
-            Phase::Failed(fault) if OF_A_SAMPLE.contains(&fault.code()) => Some(fault.code()),
-            _ => None,
-        };
-        if machine.running() {
-            found != expected
-        } else {
-            let neutral = after.command == lattice.protocol.neutral_command;
-            !(neutral && core::mem::discriminant(&after.phase()) == core::mem::discriminant(&machine.phase()))
-        }
-    });
-    wrong.map_or(Ok(()), |index| Err(Some(index)))
+fn faults(lattice: &Lattice, machine: &Machine, event: MachineEvent, after: &Machine) -> bool {
+    let (phase, before) = (after.supervisor.phase(), machine.supervisor.phase());
+    let expected = match event {
+        MachineEvent::Sample { reading, interval_s, .. } => expected(lattice, machine, reading, interval_s),
+        MachineEvent::Tick { age_s } => expected_of_time(machine, age_s),
+        MachineEvent::Abort => return true,
+    };
+    let found = match phase {
+        Phase::Failed(fault) if OF_A_SAMPLE.contains(&fault.code()) => Some(fault.code()),
+        _ => None,
+    };
+    let stays = core::mem::discriminant(&phase) == core::mem::discriminant(&before);
+    if machine.running() { found == expected } else { after.command == lattice.protocol.neutral_command && stays }
 }
 
 /// The fault that a sample is, by the words of the protocol.
@@ -135,7 +122,7 @@ fn expected(lattice: &Lattice, machine: &Machine, reading: f64, interval_s: f64)
     let far = |position: f64| (position - protocol.reference).abs() > protocol.largest_excursion;
     // The short way round.
     let round = |way: f64| 180.0 - (180.0 - way).rem_euclid(360.0);
-    let (Some((before, since_s)), Some(position)) = (machine.seen, machine.position()) else {
+    let (Some((before, since_s)), Some(position)) = (machine.seen, machine.supervisor.position()) else {
         let first = match protocol.coordinate {
             Coordinate::Speed => 0.0,
             Coordinate::HeadingDegrees => round(reading),
@@ -157,7 +144,7 @@ fn expected(lattice: &Lattice, machine: &Machine, reading: f64, interval_s: f64)
         Coordinate::Speed => (reading - before, position + interval_s * (reading + before) / 2.0),
         _ => (reading - before, reading),
     };
-    let back = match machine.farthest() {
+    let back = match machine.supervisor.farthest() {
         Some(highest) if machine.command > protocol.neutral_command => highest - next,
         Some(lowest) => next - lowest,
         None => 0.0,
@@ -189,53 +176,52 @@ fn expected_of_time(machine: &Machine, age_s: f64) -> Option<&'static str> {
 explored! {
     ON_BOARD_STILL = "on-board-still"
     "Readings that go nowhere for the patience end the experiment, and no level is raised upon them for want of a switching"
-    still over WITH_COARSE, but not Restless
+    Property::step(still), over WITH_COARSE, but not Restless
 }
 
-fn still(lattice: &Lattice, machine: &Machine, successors: &[(MachineEvent, Machine)]) -> Result<(), Option<usize>> {
+fn still(lattice: &Lattice, machine: &Machine, event: MachineEvent, after: &Machine) -> bool {
+    let (MachineEvent::Sample { observation, .. }, Some(position)) = (event, after.supervisor.position()) else {
+        return true;
+    };
+    if machine.seen.is_none() || !machine.running() {
+        return true;
+    }
     let protocol = &lattice.protocol;
-    let Some(_) = machine.seen.filter(|_| machine.running()) else { return Ok(()) };
     let level = |machine: &Machine| (machine.command - protocol.neutral_command).abs();
-    let wrong = successors.iter().position(|(event, after)| {
-        let (MachineEvent::Sample { observation, .. }, Some(position)) = (event, after.position()) else {
-            return false;
-        };
-        let gone = machine.motion.gone(protocol, machine.half_width(), position);
-        let late = !gone && machine.motion.still(protocol, after.time_s);
-        let named = matches!(after.phase(), Phase::Failed(fault) if fault.code() == "no-motion");
-        // A cycle that ends here may have too small an amplitude.
-        let raised = after.running() && level(after) > level(machine);
-        named && !late || after.running() && late || raised && !gone && *observation != Observation::Condition40
-    });
-    wrong.map_or(Ok(()), |index| Err(Some(index)))
+    let gone = machine.motion.gone(protocol, machine.supervisor.half_width(), position);
+    let late = !gone && machine.motion.still(protocol, after.time_s);
+    let named = matches!(after.supervisor.phase(), Phase::Failed(fault) if fault.code() == "no-motion");
+    // A cycle that ends here may have too small an amplitude.
+    let raised = after.running() && level(after) > level(machine);
+    !(named && !late || after.running() && late || raised && !gone && observation != Observation::Condition40)
 }
 
 explored! {
     ON_BOARD_EXCURSION = "on-board-excursion"
     "Whatever plant and sensor say, the relay drives no further than the largest excursion and one gap at the largest rate"
-    excursion over LATTICES, but not Boundless
+    Property { state: within, step: within_a_gap }, over LATTICES, but not Boundless
+}
+
+fn drives(lattice: &Lattice, machine: &Machine) -> bool {
+    machine.command != lattice.protocol.neutral_command
 }
 
 /// Every sequence of readings comes, those of a plant of the wrong sign, a stuck or a late plant, and a sensor that
 /// wanders too. The coordinate is the reading: a wandering sensor adds its error.
-fn excursion(
-    lattice: &Lattice,
-    machine: &Machine,
-    successors: &[(MachineEvent, Machine)],
-) -> Result<(), Option<usize>> {
+fn within(lattice: &Lattice, machine: &Machine, _: &[(MachineEvent, Machine)]) -> bool {
     let protocol = &lattice.protocol;
-    let drives = |machine: &Machine| machine.command != protocol.neutral_command;
     let within = |position: f64| (position - protocol.reference).abs() <= protocol.largest_excursion;
-    if drives(machine) && !machine.position().is_some_and(within) {
-        return Err(None);
-    }
-    // Between samples it is driven for no longer than a gap: a tick or a sample that comes later ends it.
-    let longest_s = Protocol::<f64>::LONGEST_GAP * protocol.interval_s;
-    let wrong = successors.iter().position(|(event, after)| match *event {
-        MachineEvent::Sample { interval_s: age_s, .. } | MachineEvent::Tick { age_s } => {
-            machine.seen.is_some() && drives(after) && !(age_s <= longest_s)
+    !drives(lattice, machine) || machine.supervisor.position().is_some_and(within)
+}
+
+/// Between samples it is driven for no longer than a gap: a tick or a sample that comes later ends it.
+fn within_a_gap(lattice: &Lattice, machine: &Machine, event: MachineEvent, after: &Machine) -> bool {
+    let longest_s = Protocol::<f64>::LONGEST_GAP * lattice.protocol.interval_s;
+    !drives(lattice, after)
+        || match event {
+            MachineEvent::Sample { interval_s: age_s, .. } | MachineEvent::Tick { age_s } => {
+                machine.seen.is_none() || age_s <= longest_s
+            }
+            MachineEvent::Abort => false,
         }
-        MachineEvent::Abort => drives(after),
-    });
-    wrong.map_or(Ok(()), |index| Err(Some(index)))
 }

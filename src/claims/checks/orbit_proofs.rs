@@ -1,16 +1,14 @@
 //! Claims about exact orbits that are proved by enclosure.
 
 use super::algebra::{exactly, number};
+use super::family::cycle;
 use super::method_bias::SymmetricOrbit;
 use super::{
-    Budget, Case, ClaimDomain, ClaimPart, ClaimVariable, Distortion, Evidence, Hypothesis, Verdict, Witness, claim,
-    sample,
+    Case, ClaimDomain, ClaimPart, ClaimVariable, Distortion, Draw, Evidence, Hypothesis, Verdict, Witness, claim, drawn,
 };
-use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Interval, Real};
+use crate::orbit::return_slope;
 use crate::orbit::theorem::{self, BUDGET, Theorem};
-use crate::orbit::{limit_cycle, return_slope};
-use crate::plant::DragAxis;
 use crate::proof::Expression;
 use crate::proof::inequality::Inequality;
 use crate::proof::margin::Margin;
@@ -113,16 +111,13 @@ const FALSE_OVERSHOOT_LINEAR: Inequality = Inequality {
 };
 
 /// Under a disturbance above the level there is no limit cycle.
-fn beyond_the_level(budget: Budget) -> Verdict {
-    sample(budget, |draw| {
-        let (level, share) = (draw.uniform("level", 0.1, 1.0), draw.uniform("disturbance_over_level", 1.0, 2.0));
-        let axis = DragAxis::mixed(1.0, 0.5, 0.5).and_then(|axis| axis.with_disturbance(share * level));
-        let (axis, relay) = (axis.ok()?, RelayHysteresis::new(level, 0.2, 0.0).ok()?);
-        Some(Case::truth(limit_cycle(&axis, &relay).is_ok()))
-    })
+fn beyond_the_level(draw: &mut Draw) -> Option<Case> {
+    let (level, share) = (draw.uniform("level", 0.1, 1.0), draw.uniform("disturbance_over_level", 1.0, 2.0));
+    Some(Case::truth(cycle(1.0, [0.5, 0.5], share * level, 0.0, [level, 0.2]).is_some()))
 }
 
-const BELOW_LEVEL: Hypothesis = Hypothesis::needed("disturbance-below-level", beyond_the_level);
+const BELOW_LEVEL: Hypothesis =
+    Hypothesis { id: "disturbance-below-level", counterexample: Some(drawn!(beyond_the_level())) };
 
 /// Claims that inequalities establish: theorem, false inequality, parts of the domain, further proofs, hypotheses.
 macro_rules! enclosed {

@@ -1,8 +1,9 @@
 //! Exact limit cycles of a drag axis, and the parameters that the first-harmonic method reads off them.
 
 use super::algebra::{exactly, number};
+use super::family::cycle;
 use super::orbit_proofs::{FALSE_DRAG, proved};
-use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::balance::HarmonicBalance;
 use crate::describing::ClosedForm;
 use crate::identify::iso::{Oscillation, Parameters, disturbance_from_times};
@@ -65,45 +66,34 @@ impl SingleDragLoop {
 
 claim! {
     ORBIT_QUADRATIC = "orbit-quadratic" Theorem
-    "Quadratic drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
-        corrected: Some(|budget| {
-            closed_form_orbit(budget, |l| {
-                let (g, reach) = (l.drag * l.half_width / l.alpha, l.alpha / (2.0 * l.drag));
-                let amplitude = l.half_width + reach * libm::log1p(orbit::quadratic_speeds(-libm::expm1(-4.0 * g), 0.0)[0]);
-                let period = 2.0 * l.alpha / (l.drag * l.level).sqrt() * orbit::quadratic_period(g);
-                (amplitude, period)
-            }, &QUADRATIC)
-            .and(|| attracts(budget, &QUADRATIC))
-            .backed_by(|| proved(&theorem::QUADRATIC, const { &[EVERY_AXIS] }))
-        }),
-        theorem: Some((&theorem::QUADRATIC, &FALSE_DRAG)),
-        // E = exp(-2 g) in place of exp(-4 g): the energy of a whole swing taken for half of it.
-        falsified: |budget| closed_form_orbit(budget, |l| {
-            let (g, reach) = (l.drag * l.half_width / l.alpha, l.alpha / (2.0 * l.drag));
-            let amplitude = l.half_width + reach * libm::log1p((-libm::expm1(-2.0 * g)).sqrt());
-            (amplitude, 2.0 * l.alpha / (l.drag * l.level).sqrt() * orbit::quadratic_period(0.5 * g))
-        }, &QUADRATIC),
-        hypotheses: &[
-            Hypothesis::needed("drag-positive", |budget| no_cycle(budget, 0.0, 0.2)),
-            Hypothesis::needed("half-width-positive", |budget| no_cycle(budget, 1.0, 0.0)),
-        ],
-    }
+    "Quadratic drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start";
+    corrected closed_form_orbit(|l| quadratic_orbit(l, 4.0), &QUADRATIC) and attracts(&QUADRATIC)
+        backed by proved(&theorem::QUADRATIC, const { &[EVERY_AXIS] });
+    // E = exp(-2 g) in place of exp(-4 g): the energy of a whole swing taken for half of it.
+    false closed_form_orbit(|l| quadratic_orbit(l, 2.0), &QUADRATIC);
+    needs "drag-positive" no_cycle(0.0, 0.2);
+    needs "half-width-positive" no_cycle(1.0, 0.0);
+    theorem (&theorem::QUADRATIC, &FALSE_DRAG);
+}
+
+/// Amplitude and period from `E = exp(-swing g)`.
+fn quadratic_orbit(l: &SingleDragLoop, swing: f64) -> (f64, f64) {
+    let (g, reach) = (l.drag * l.half_width / l.alpha, l.alpha / (2.0 * l.drag));
+    let speed = orbit::quadratic_speeds(-libm::expm1(-swing * g), 0.0)[0];
+    let period_s = 2.0 * l.alpha / (l.drag * l.level).sqrt() * orbit::quadratic_period(swing / 4.0 * g);
+    (l.half_width + reach * libm::log1p(speed), period_s)
 }
 
 claim! {
     ORBIT_LINEAR = "orbit-linear" Theorem
-    "Linear drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
-        corrected: Some(|budget| closed_form_orbit(budget, |l| linear_orbit(l, 4.0), &LINEAR)
-            .and(|| attracts(budget, &LINEAR))
-            .backed_by(|| proved(&theorem::LINEAR, const { &[EVERY_AXIS] }))),
-        theorem: Some((&theorem::LINEAR, &FALSE_DRAG)),
-        // z = beta T/(2 alpha).
-        falsified: |budget| closed_form_orbit(budget, |l| linear_orbit(l, 2.0), &LINEAR),
-        hypotheses: &[
-            Hypothesis::needed("drag-positive", |budget| no_cycle(budget, 0.0, 0.2)),
-            Hypothesis::needed("half-width-positive", |budget| no_cycle(budget, 1.0, 0.0)),
-        ],
-    }
+    "Linear drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start";
+    corrected closed_form_orbit(|l| linear_orbit(l, 4.0), &LINEAR) and attracts(&LINEAR)
+        backed by proved(&theorem::LINEAR, const { &[EVERY_AXIS] });
+    // z = beta T/(2 alpha).
+    false closed_form_orbit(|l| linear_orbit(l, 2.0), &LINEAR);
+    needs "drag-positive" no_cycle(0.0, 0.2);
+    needs "half-width-positive" no_cycle(1.0, 0.0);
+    theorem (&theorem::LINEAR, &FALSE_DRAG);
 }
 
 /// Amplitude and period from `z - tanh z = g`, solved by bisection in z.
@@ -119,37 +109,33 @@ fn linear_orbit(l: &SingleDragLoop, quarter: f64) -> (f64, f64) {
 }
 
 /// The general path through Newton's method gives the closed form of the symmetric case.
-fn closed_form_orbit(budget: Budget, orbit: fn(&SingleDragLoop) -> (f64, f64), family: &SingleDrag) -> Verdict {
-    sample(budget, |draw| {
-        let case = SingleDragLoop::draw(draw, family)?;
-        let Ok(cycle) = limit_cycle(&case.axis, &case.relay) else { return Some(Case::truth(false)) };
-        let (amplitude, period_s) = orbit(&case);
-        let equations = [
-            ("amplitude", cycle.amplitude, amplitude, amplitude),
-            ("period_s", cycle.period_s, period_s, period_s),
-            ("bias", cycle.bias, 0.0, amplitude),
-        ];
-        Some(draw.equations(equations, tolerance::CANCELLING))
-    })
+fn closed_form_orbit(draw: &mut Draw, orbit: fn(&SingleDragLoop) -> (f64, f64), family: &SingleDrag) -> Option<Case> {
+    let case = SingleDragLoop::draw(draw, family)?;
+    let Ok(cycle) = limit_cycle(&case.axis, &case.relay) else { return Some(Case::truth(false)) };
+    let (amplitude, period_s) = orbit(&case);
+    let equations = [
+        ("amplitude", cycle.amplitude, amplitude, amplitude),
+        ("period_s", cycle.period_s, period_s, period_s),
+        ("bias", cycle.bias, 0.0, amplitude),
+    ];
+    Some(draw.equations(equations, tolerance::CANCELLING))
 }
 
 /// From any speed the return map moves towards the cycle's and never past it, with a slope in (0, 1) at the cycle.
-fn attracts(budget: Budget, family: &SingleDrag) -> Verdict {
-    sample(budget, |draw| {
-        let case = SingleDragLoop::draw(draw, family)?;
-        let Ok(cycle) = limit_cycle(&case.axis, &case.relay) else { return Some(Case::truth(false)) };
-        let fixed = cycle.upper_switch.velocity;
-        let start = fixed * draw.log_uniform("start_over_fixed", 1e-3, 1e3);
-        if (start / fixed - 1.0).abs() < 1e-4 {
-            return None;
-        }
-        let Some(next) = a_period_on(&case.axis, &case.relay, start) else { return Some(Case::truth(false)) };
-        // The distance after a period over the distance before.
-        let left = draw.note("left", (next - fixed) / (start - fixed));
-        let contracts = (0.0..1.0).contains(&cycle.multiplier);
-        // Where drag is weak and the start is far off the share is 1 within rounding.
-        Some(Case::truth(contracts && left > -tolerance::CANCELLING && left < 1.0 + tolerance::CANCELLING))
-    })
+fn attracts(draw: &mut Draw, family: &SingleDrag) -> Option<Case> {
+    let case = SingleDragLoop::draw(draw, family)?;
+    let Ok(cycle) = limit_cycle(&case.axis, &case.relay) else { return Some(Case::truth(false)) };
+    let fixed = cycle.upper_switch.velocity;
+    let start = fixed * draw.log_uniform("start_over_fixed", 1e-3, 1e3);
+    if (start / fixed - 1.0).abs() < 1e-4 {
+        return None;
+    }
+    let Some(next) = a_period_on(&case.axis, &case.relay, start) else { return Some(Case::truth(false)) };
+    // The distance after a period over the distance before.
+    let left = draw.note("left", (next - fixed) / (start - fixed));
+    let contracts = (0.0..1.0).contains(&cycle.multiplier);
+    // Where drag is weak and the start is far off the share is 1 within rounding.
+    Some(Case::truth(contracts && left > -tolerance::CANCELLING && left < 1.0 + tolerance::CANCELLING))
 }
 
 /// The speed at the upper switching a period after a switching there at `speed`: two half cycles without disturbance and delay.
@@ -163,58 +149,47 @@ fn a_period_on(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>, speed: f64) -
 }
 
 /// Without drag there is no limit cycle, nor without hysteresis and delay.
-fn no_cycle(budget: Budget, drag: f64, half_width: f64) -> Verdict {
-    sample(budget, |draw| {
-        let level = draw.uniform("level", 0.1, 1.0);
-        let (drag, half_width) = (draw.note("drag", drag), draw.note("half_width", half_width));
-        let (axis, relay) = (DragAxis::linear(1.0, drag).ok()?, RelayHysteresis::new(level, half_width, 0.0).ok()?);
-        Some(Case::truth(limit_cycle(&axis, &relay).is_ok()))
-    })
+fn no_cycle(draw: &mut Draw, drag: f64, half_width: f64) -> Option<Case> {
+    let level = draw.uniform("level", 0.1, 1.0);
+    let (drag, half_width) = (draw.note("drag", drag), draw.note("half_width", half_width));
+    Some(Case::truth(cycle(1.0, [drag, 0.0], 0.0, 0.0, [level, half_width]).is_some()))
 }
 
 /// A loop with a disturbance, and its orbit.
 fn disturbed(draw: &mut Draw, linear: bool, quadratic: bool) -> Option<(f64, f64, LimitCycle<f64>)> {
     let coefficient = |draw: &mut Draw, name, on: bool| if on { draw.log_uniform(name, 0.1, 10.0) } else { 0.0 };
-    let drag = (coefficient(draw, "linear_drag", linear), coefficient(draw, "quadratic_drag", quadratic));
+    let drag = [coefficient(draw, "linear_drag", linear), coefficient(draw, "quadratic_drag", quadratic)];
     let level = draw.uniform("level", 0.5, 2.0);
     let share = draw.uniform("disturbance_over_level", 0.1, 0.8);
     let (half_width, delay_s) = (draw.log_uniform("half_width", 0.05, 2.0), draw.uniform("delay_s", 0.0, 0.5));
-    let axis = DragAxis::mixed(1.0, drag.0, drag.1).ok()?;
-    let axis = axis.with_disturbance(share * level).ok()?.with_delay_s(delay_s).ok()?;
-    let relay = RelayHysteresis::new(level, half_width, 0.0).ok()?;
-    Some((level, share * level, limit_cycle(&axis, &relay).ok()?))
+    Some((level, share * level, cycle(1.0, drag, share * level, delay_s, [level, half_width])?))
 }
 
-fn delta(budget: Budget, linear: bool, quadratic: bool, sign: f64) -> Verdict {
-    sample(budget, |draw| {
-        let Some((level, delta, cycle)) = disturbed(draw, linear, quadratic) else { return Some(Case::truth(false)) };
-        let found = sign * disturbance_from_times(level, cycle.time_positive_s, cycle.time_negative_s);
-        Some(draw.equal(("delta_found", found), delta, level, tolerance::CANCELLING))
-    })
+fn delta(draw: &mut Draw, linear: bool, quadratic: bool, sign: f64) -> Option<Case> {
+    let Some((level, delta, cycle)) = disturbed(draw, linear, quadratic) else { return Some(Case::truth(false)) };
+    let found = sign * disturbance_from_times(level, cycle.time_positive_s, cycle.time_negative_s);
+    Some(draw.equal(("delta_found", found), delta, level, tolerance::CANCELLING))
 }
 
 claim! {
     DELTA_FROM_TIMES = "delta-from-times" Theorem
-    "delta = -C (t_plus - t_minus)/T is exact for any waveform and delay when drag is linear" {
-        printed: AsPrinted::Refuted(|budget| delta(budget, true, true, 1.0)),
-        corrected: Some(|budget| delta(budget, true, false, 1.0)),
-        // T_H taken for the time at command +C.
-        falsified: |budget| delta(budget, true, false, -1.0),
-        proof: Some(prove_delta_from_times),
-        hypotheses: &[Hypothesis::needed("linear-drag", |budget| delta(budget, false, true, 1.0))],
-    }
+    "delta = -C (t_plus - t_minus)/T is exact for any waveform and delay when drag is linear";
+    printed Refuted delta(true, true, 1.0);
+    corrected delta(true, false, 1.0);
+    // T_H taken for the time at command +C.
+    false delta(true, false, -1.0);
+    needs "linear-drag" delta(false, true, 1.0);
+    exactly mean_force on "whole" at &[[1.0, 2.0, 0.3]];
 }
 
 claim! {
     METHOD_BIAS = "method-bias" Theorem
-    "On symmetric orbits without delay the relative error of the method depends on one number g, whatever the parameters" {
-        proof: Some(prove_method_bias),
-        corrected: Some(|budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.0)
-            .and(|| depends_on_g_alone(budget, &QUADRATIC, &QUADRATIC, 0.0))),
-        // The number `g` of the wrong drag law.
-        falsified: |budget| depends_on_g_alone(budget, &LINEAR, &SingleDrag { group: QUADRATIC.group, ..LINEAR }, 0.0),
-        hypotheses: &[Hypothesis::needed("no-disturbance", |budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.5))],
-    }
+    "On symmetric orbits without delay the relative error of the method depends on one number g, whatever the parameters";
+    corrected depends_on_g_alone(&LINEAR, &LINEAR, 0.0) and depends_on_g_alone(&QUADRATIC, &QUADRATIC, 0.0);
+    // The number `g` of the wrong drag law.
+    false depends_on_g_alone(&LINEAR, &SingleDrag { group: QUADRATIC.group, ..LINEAR }, 0.0);
+    needs "no-disturbance" depends_on_g_alone(&LINEAR, &LINEAR, 0.5);
+    proof prove_method_bias;
 }
 
 /// Relative errors (alpha, drag) of the method on the exact orbit of a loop, with a disturbance as a share of the level.
@@ -234,40 +209,35 @@ fn method_errors(case: &SingleDragLoop, family: &SingleDrag, disturbance: f64) -
 
 /// The method's errors on a random loop, disturbed, equal those on the loop of unit parameters whose half-width is `g`
 /// as `assumed` has it.
-fn depends_on_g_alone(budget: Budget, family: &SingleDrag, assumed: &SingleDrag, disturbance: f64) -> Verdict {
-    sample(budget, |draw| {
-        let case = SingleDragLoop::draw(draw, family)?;
-        let g = case.half_width * (assumed.group)(case.alpha, case.drag, case.level);
-        let unit = SingleDragLoop::new(family, 1.0, 1.0, 1.0, g);
-        let share = draw.uniform("disturbance_over_level", 0.5, 1.0) * disturbance;
-        let errors = method_errors(&case, family, share).zip(unit.and_then(|unit| method_errors(&unit, family, 0.0)));
-        let Some((drawn, unit)) = errors else { return Some(Case::truth(false)) };
-        let errors = [("alpha_error", drawn[0], unit[0], 1.0), ("drag_error", drawn[1], unit[1], 1.0)];
-        Some(draw.equations(errors, tolerance::CANCELLING))
-    })
+fn depends_on_g_alone(draw: &mut Draw, family: &SingleDrag, assumed: &SingleDrag, disturbance: f64) -> Option<Case> {
+    let case = SingleDragLoop::draw(draw, family)?;
+    let g = case.half_width * (assumed.group)(case.alpha, case.drag, case.level);
+    let unit = SingleDragLoop::new(family, 1.0, 1.0, 1.0, g);
+    let share = draw.uniform("disturbance_over_level", 0.5, 1.0) * disturbance;
+    let errors = method_errors(&case, family, share).zip(unit.and_then(|unit| method_errors(&unit, family, 0.0)));
+    let Some((drawn, unit)) = errors else { return Some(Case::truth(false)) };
+    let errors = [("alpha_error", drawn[0], unit[0], 1.0), ("drag_error", drawn[1], unit[1], 1.0)];
+    Some(draw.equations(errors, tolerance::CANCELLING))
 }
 
 claim! {
     BALANCE_CONVERGES = "balance-converges" Theorem
-    "With more harmonics the balance of an integrating plant under a relay comes ever closer to the exact orbit" {
-        not_proved: Some("the balance with many harmonics comes from a search, not from a formula"),
-        corrected: Some(|budget| balance_error(budget, [1, 5, 15], 0.2)),
-        // Closer by a factor of a thousand for each fivefold of harmonics.
-        falsified: |budget| balance_error(budget, [1, 5, 15], 1e-3),
-    }
+    "With more harmonics the balance of an integrating plant under a relay comes ever closer to the exact orbit";
+    cases |all| all.div_ceil(200);
+    corrected balance_error([1, 5, 15], 0.2);
+    // Closer by a factor of a thousand for each fivefold of harmonics.
+    false balance_error([1, 5, 15], 1e-3);
+    not_proved "the balance with many harmonics comes from a search, not from a formula";
 }
 
 /// Relative errors of the period with ever more harmonics: each at most `factor` times its predecessor.
-fn balance_error(budget: Budget, orders: [usize; 3], factor: f64) -> Verdict {
-    sample(Budget { cases: budget.cases.div_ceil(200), ..budget }, |draw| {
-        let (lag_s, half_width) = (draw.log_uniform("lag_s", 0.3, 3.0), draw.uniform("half_width", 0.05, 0.5));
-        let errors = balance_errors(lag_s, half_width, orders);
-        let [first, some, many] = errors?;
-        for (name, error) in [("first", first), ("some", some), ("many", many)] {
-            draw.note(name, error);
-        }
-        Some(Case::margin(1.0 - some / (factor * first)).and(Case::margin(1.0 - many / (factor * some))))
-    })
+fn balance_error(draw: &mut Draw, orders: [usize; 3], factor: f64) -> Option<Case> {
+    let (lag_s, half_width) = (draw.log_uniform("lag_s", 0.3, 3.0), draw.uniform("half_width", 0.05, 0.5));
+    let [first, some, many] = balance_errors(lag_s, half_width, orders)?;
+    for (name, error) in [("first", first), ("some", some), ("many", many)] {
+        draw.note(name, error);
+    }
+    Some(Case::margin(1.0 - some / (factor * first)).and(Case::margin(1.0 - many / (factor * some))))
 }
 
 /// Of `1/(s (lag s + 1))` under a unit relay.
@@ -286,13 +256,10 @@ fn balance_errors(lag_s: f64, half_width: f64, orders: [usize; 3]) -> Option<[f6
 }
 
 /// Times at which command and disturbance have mean zero give the disturbance.
-fn prove_delta_from_times(distortion: Distortion) -> Verdict {
-    let functions = |[level, positive_s, delta]: [Rational; 3], factor: Rational| {
-        let negative_s = positive_s * (level + delta) / (level - delta);
-        let impulse = level * (positive_s - negative_s) + delta * (positive_s + negative_s);
-        Some([impulse, factor * disturbance_from_times(level, positive_s, negative_s) - delta])
-    };
-    exactly(ClaimPart::WHOLE, distortion, &[[1.0, 2.0, 0.3]], functions)
+fn mean_force([level, positive_s, delta]: [Rational; 3], factor: Rational) -> Option<[Rational; 2]> {
+    let negative_s = positive_s * (level + delta) / (level - delta);
+    let impulse = level * (positive_s - negative_s) + delta * (positive_s + negative_s);
+    Some([impulse, factor * disturbance_from_times(level, positive_s, negative_s) - delta])
 }
 
 /// The method's parameters from an orbit, over the true parameters.

@@ -2,10 +2,9 @@
 
 use core::f64::consts::PI;
 
-use super::algebra::{exactly, number};
-use super::enclosure::no_function;
+use super::algebra::{exactly, no_function, number};
 use super::kernels::{BREAKPOINT, on_unit, prove_kernel};
-use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, bias_of_output, by_quadrature};
 use crate::nonlinearity::{Branches, Kernel, RelayHysteresis, Sinusoid};
 use crate::numeric::Real;
@@ -32,50 +31,46 @@ fn switching(draw: &mut Draw) -> Option<SwitchedRelay> {
 
 /// A formula for a part of the describing function against its integral.
 fn formula(
-    budget: Budget,
+    draw: &mut Draw,
     part: fn(&DescribingFunction<f64>) -> f64,
     formula: fn(&SwitchedRelay) -> f64,
     gain: bool,
-) -> Verdict {
-    sample(budget, |draw| {
-        let case = switching(draw)?;
-        let scale = (case.level + case.offset.abs()) / if gain { case.amplitude } else { 1.0 };
-        Some(draw.equal(("formula", formula(&case)), part(&case.integral), scale, tolerance::QUADRATURE))
-    })
+) -> Option<Case> {
+    let case = switching(draw)?;
+    let scale = (case.level + case.offset.abs()) / if gain { case.amplitude } else { 1.0 };
+    Some(draw.equal(("formula", formula(&case)), part(&case.integral), scale, tolerance::QUADRATURE))
 }
 
 claim! {
     RELAY_Q = "relay-q" Identity
-    "Q of a relay with hysteresis is -4 C x_a/(pi X^2), whatever the bias and the offset" {
-        printed: AsPrinted::Holds(|budget| {
-            formula(budget, |df| df.q, |s| -4.0 * s.level * s.half_width / (PI * s.amplitude * s.amplitude), true)
-        }),
-        falsified: |budget| {
-            formula(budget, |df| df.q, |s| -4.0 * s.level * (s.half_width + s.bias) / (PI * s.amplitude * s.amplitude), true)
-        },
-        proof: Some(prove_relay_q),
-        hypotheses: &[Hypothesis::needed("switches-both-ways", formula_below_switching)],
-    }
+    "Q of a relay with hysteresis is -4 C x_a/(pi X^2), whatever the bias and the offset";
+    printed Holds formula(|df| df.q, |s| -4.0 * s.level * s.half_width / (PI * s.amplitude * s.amplitude), true);
+    false formula(|df| df.q, |s| -4.0 * s.level * (s.half_width + s.bias) / (PI * s.amplitude * s.amplitude), true);
+    needs "switches-both-ways" formula_below_switching();
+    proof |distortion| {
+        let term = |u| -(number(2.0) * u / Rational::pi());
+        prove_printed(distortion, term, |width, _| -(number(4.0) * width / Rational::pi()), |df| df.q)
+    };
 }
 
 /// Below the switching amplitude the output is constant: its Q is zero, the formula's is not.
-fn formula_below_switching(budget: Budget) -> Verdict {
-    sample(budget, |draw| {
-        let half_width = draw.uniform("half_width", 0.5, 1.0);
-        let amplitude = draw.uniform("amplitude", 0.1, 0.5);
-        let formula = -4.0 * half_width / (PI * amplitude * amplitude);
-        Some(draw.equal(("formula", formula), 0.0, 1.0, tolerance::ROUNDING))
-    })
+fn formula_below_switching(draw: &mut Draw) -> Option<Case> {
+    let half_width = draw.uniform("half_width", 0.5, 1.0);
+    let amplitude = draw.uniform("amplitude", 0.1, 0.5);
+    let formula = -4.0 * half_width / (PI * amplitude * amplitude);
+    Some(draw.equal(("formula", formula), 0.0, 1.0, tolerance::ROUNDING))
 }
 
 claim! {
     RELAY_P = "relay-p" Identity
-    "P of a relay with hysteresis is (2C/(pi X)) [sqrt(1 - ((x_a - x_0)/X)^2) + sqrt(1 - ((x_a + x_0)/X)^2)]" {
-        printed: AsPrinted::Holds(|budget| formula(budget, |df| df.p, |s| in_phase(s, s.bias), true)),
-        falsified: |budget| formula(budget, |df| df.p, |s| in_phase(s, 0.0), true),
-        proof: Some(prove_relay_p),
-        hypotheses: &[Hypothesis::stated("switches-both-ways")],
-    }
+    "P of a relay with hysteresis is (2C/(pi X)) [sqrt(1 - ((x_a - x_0)/X)^2) + sqrt(1 - ((x_a + x_0)/X)^2)]";
+    printed Holds formula(|df| df.p, |s| in_phase(s, s.bias), true);
+    false formula(|df| df.p, |s| in_phase(s, 0.0), true);
+    states "switches-both-ways";
+    proof |distortion| {
+        let term = |u| number(2.0) / Rational::pi() * root(u);
+        prove_printed(distortion, term, |width, bias| term(width - bias) + term(width + bias), |df| df.p)
+    };
 }
 
 fn in_phase(s: &SwitchedRelay, bias: f64) -> f64 {
@@ -85,77 +80,69 @@ fn in_phase(s: &SwitchedRelay, bias: f64) -> f64 {
 
 claim! {
     RELAY_F0 = "relay-f0" Identity
-    "The mean output is C (t_high - t_low)/T = (C/pi) [asin((x_a + e_0)/X) - asin((x_a - e_0)/X)], plus the offset" {
-        printed: AsPrinted::Holds(|budget| mean_output(budget, 1.0)),
-        // The times exchanged: the sign error that reading T_H as the time at command +C makes.
-        falsified: |budget| mean_output(budget, -1.0),
-        proof: Some(prove_relay_f0),
-        hypotheses: &[Hypothesis::stated("switches-both-ways")],
-    }
+    "The mean output is C (t_high - t_low)/T = (C/pi) [asin((x_a + e_0)/X) - asin((x_a - e_0)/X)], plus the offset";
+    printed Holds mean_output(1.0);
+    // The times exchanged: the sign error that reading T_H as the time at command +C makes.
+    false mean_output(-1.0);
+    states "switches-both-ways";
+    proof prove_relay_f0;
 }
 
-fn mean_output(budget: Budget, sign: f64) -> Verdict {
-    sample(budget, |draw| {
-        let s = switching(draw)?;
-        let angle = |distance: f64| libm::asin(distance / s.amplitude);
-        let (rising, falling) = (angle(s.half_width - s.bias), angle(s.half_width + s.bias));
-        let by_angle = s.level / PI * (falling - rising) + s.offset;
-        // High from the rising to the falling crossing: as a share of a turn.
-        let high = PI - rising + falling;
-        let by_time = sign * bias_of_output(s.level, high, 2.0 * PI - high) + s.offset;
-        let (expected, scale) = (s.integral.f0, s.level + s.offset.abs());
-        let equations = [("by_angle", by_angle, expected, scale), ("by_time", by_time, expected, scale)];
-        Some(draw.equations(equations, tolerance::QUADRATURE))
-    })
+fn mean_output(draw: &mut Draw, sign: f64) -> Option<Case> {
+    let s = switching(draw)?;
+    let angle = |distance: f64| libm::asin(distance / s.amplitude);
+    let (rising, falling) = (angle(s.half_width - s.bias), angle(s.half_width + s.bias));
+    let by_angle = s.level / PI * (falling - rising) + s.offset;
+    // High from the rising to the falling crossing: as a share of a turn.
+    let high = PI - rising + falling;
+    let by_time = sign * bias_of_output(s.level, high, 2.0 * PI - high) + s.offset;
+    let (expected, scale) = (s.integral.f0, s.level + s.offset.abs());
+    let equations = [("by_angle", by_angle, expected, scale), ("by_time", by_time, expected, scale)];
+    Some(draw.equations(equations, tolerance::QUADRATURE))
 }
 
 claim! {
     SECOND_QUADRANT = "second-quadrant" Statement
-    "-G_N of the unbiased relay with hysteresis covers the second quadrant, and nothing else" {
-        printed: AsPrinted::Holds(|budget| covers(budget, 0.5 * PI, PI)),
-        falsified: |budget| covers(budget, 0.5 * PI, 1.25 * PI),
-        proof: Some(prove_second_quadrant),
-    }
+    "-G_N of the unbiased relay with hysteresis covers the second quadrant, and nothing else";
+    printed Holds covers(0.5 * PI, PI);
+    false covers(0.5 * PI, 1.25 * PI);
+    exactly some_relay on "covered" at &[[0.25], [0.75]],
+        every_relay on "nothing-else" at &[[2.0, 0.25, 1.0], [2.0, 0.75, 1.0]];
 }
 
 /// Each point at an angle between the two is -G_N of some relay and amplitude, and each -G_N lies at such an angle.
-fn covers(budget: Budget, from: f64, to: f64) -> Verdict {
-    sample(budget, |draw| {
-        let (angle, magnitude) = (draw.uniform("angle", from, to), draw.log_uniform("magnitude", 1e-3, 1e3));
-        // -G_N = (4C/(pi X)) exp(j (pi - asin(x_a/X))): choose X = 1.
-        let (half_width, level) = (libm::sin(PI - angle), 0.25 * PI * magnitude);
-        let gain = |level: f64, half_width: f64, amplitude: f64| {
-            let sweep = Sinusoid::new(0.0, amplitude).ok()?;
-            RelayHysteresis::new(level, half_width, 0.0).ok()?.describing_function(&sweep).ok()
-        };
-        let Some(reached) = gain(level, half_width, 1.0) else { return Some(Case::truth(false)) };
-        let hit = libm::hypot(-reached.p - magnitude * libm::cos(angle), -reached.q - magnitude * libm::sin(angle));
-        let covered = draw.equal(("distance", hit), 0.0, magnitude, tolerance::ROUNDING);
-        let (width, excess) = (draw.uniform("half_width", 0.0, 2.0), draw.uniform("excess", 0.0, 2.0));
-        let any = gain(level, width, width + excess + 1e-9)?;
-        Some(covered.and(Case::truth(-any.p <= 0.0 && -any.q >= 0.0)))
-    })
+fn covers(draw: &mut Draw, from: f64, to: f64) -> Option<Case> {
+    let (angle, magnitude) = (draw.uniform("angle", from, to), draw.log_uniform("magnitude", 1e-3, 1e3));
+    // -G_N = (4C/(pi X)) exp(j (pi - asin(x_a/X))): choose X = 1.
+    let (half_width, level) = (libm::sin(PI - angle), 0.25 * PI * magnitude);
+    let gain = |level: f64, half_width: f64, amplitude: f64| {
+        let sweep = Sinusoid::new(0.0, amplitude).ok()?;
+        RelayHysteresis::new(level, half_width, 0.0).ok()?.describing_function(&sweep).ok()
+    };
+    let Some(reached) = gain(level, half_width, 1.0) else { return Some(Case::truth(false)) };
+    let hit = libm::hypot(-reached.p - magnitude * libm::cos(angle), -reached.q - magnitude * libm::sin(angle));
+    let covered = draw.equal(("distance", hit), 0.0, magnitude, tolerance::ROUNDING);
+    let (width, excess) = (draw.uniform("half_width", 0.0, 2.0), draw.uniform("excess", 0.0, 2.0));
+    let any = gain(level, width, width + excess + 1e-9)?;
+    Some(covered.and(Case::truth(-any.p <= 0.0 && -any.q >= 0.0)))
 }
 
 claim! {
     SWITCHING_CONDITION = "switching-condition" Identity
-    "Eq. 31 has a value, and the relay oscillates, exactly when (x_a + abs(x_0))/X <= 1" {
-        printed: AsPrinted::Holds(|budget| condition(budget, 1.0)),
-        falsified: |budget| condition(budget, 1.1),
-        proof: Some(prove_switching_condition),
-    }
+    "Eq. 31 has a value, and the relay oscillates, exactly when (x_a + abs(x_0))/X <= 1";
+    printed Holds condition(1.0);
+    false condition(1.1);
+    exactly farther_level on "whole" at &[[0.5, 0.2], [0.5, -0.2], [0.2, 0.5], [0.2, -0.5]];
 }
 
-fn condition(budget: Budget, limit: f64) -> Verdict {
-    sample(budget, |draw| {
-        let (half_width, bias) = (draw.uniform("half_width", 0.0, 2.0), draw.uniform("bias", -1.0, 1.0));
-        let amplitude = draw.uniform("amplitude", 0.1, 4.0);
-        let meets = (half_width + bias.abs()) / amplitude <= limit;
-        let radicands = [half_width - bias, half_width + bias].map(|distance| 1.0 - (distance / amplitude).powi(2));
-        let (relay, sweep) = (RelayHysteresis::new(1.0, half_width, 0.0).ok()?, Sinusoid::new(bias, amplitude).ok()?);
-        let real = radicands.iter().all(|radicand| *radicand >= 0.0);
-        Some(Case::truth(meets == real && meets == relay.describing_function(&sweep).is_ok()))
-    })
+fn condition(draw: &mut Draw, limit: f64) -> Option<Case> {
+    let (half_width, bias) = (draw.uniform("half_width", 0.0, 2.0), draw.uniform("bias", -1.0, 1.0));
+    let amplitude = draw.uniform("amplitude", 0.1, 4.0);
+    let meets = (half_width + bias.abs()) / amplitude <= limit;
+    let radicands = [half_width - bias, half_width + bias].map(|distance| 1.0 - (distance / amplitude).powi(2));
+    let (relay, sweep) = (RelayHysteresis::new(1.0, half_width, 0.0).ok()?, Sinusoid::new(bias, amplitude).ok()?);
+    let real = radicands.iter().all(|radicand| *radicand >= 0.0);
+    Some(Case::truth(meets == real && meets == relay.describing_function(&sweep).is_ok()))
 }
 
 /// Describing function of the unit relay under a unit sinusoid, in closed form.
@@ -200,18 +187,6 @@ fn prove_printed(
         .and(|| exactly(SUM, distortion, &SWITCHINGS, of_sum))
 }
 
-/// Eq. 30.
-fn prove_relay_q(distortion: Distortion) -> Verdict {
-    let term = |u| -(number(2.0) * u / Rational::pi());
-    prove_printed(distortion, term, |width, _| -(number(4.0) * width / Rational::pi()), |df| df.q)
-}
-
-/// Eq. 31.
-fn prove_relay_p(distortion: Distortion) -> Verdict {
-    let term = |u| number(2.0) / Rational::pi() * root(u);
-    prove_printed(distortion, term, |width, bias| term(width - bias) + term(width + bias), |df| df.p)
-}
-
 /// The inverse sine: towards the turning points by the half angle, as the code forms it.
 fn inverse_sine(u: Rational) -> Rational {
     let (half, quarter_turn) = (number(0.5), number(0.5) * Rational::pi());
@@ -233,33 +208,26 @@ fn prove_relay_f0(distortion: Distortion) -> Verdict {
 }
 
 /// Each direction of the quadrant is that of some relay: with `t` from 0 to 1 the angle is `pi - 2 atan(t)`, its cosine
-/// `-(1 - t^2)/(1 + t^2)`, its sine `2 t/(1 + t^2)`. Conversely every relay's components have these signs.
-fn prove_second_quadrant(distortion: Distortion) -> Verdict {
-    let covered = |[t]: [Rational; 1], factor: Rational| {
-        let square = t.square();
-        let [cosine, sine] = [square - number(1.0), number(2.0) * t].map(|part| part / (number(1.0) + square));
-        let df = relay(Rational::pi() / number(4.0), sine, number(0.0));
-        Some([df.p + factor * cosine, df.q + factor * sine])
-    };
-    let nothing_else = |[level, half_width, amplitude]: [Rational; 3], factor: Rational| {
-        let relay = RelayHysteresis::new(level, half_width, number(0.0)).ok()?;
-        let df = relay.describing_function(&Sinusoid::new(number(0.0), amplitude).ok()?).ok()?;
-        let scale = number(4.0) * level / (Rational::pi() * amplitude);
-        let share = half_width / amplitude;
-        Some([df.p - factor * scale * root(share), df.q + factor * scale * share])
-    };
-    let points = [[2.0, 0.25, 1.0], [2.0, 0.75, 1.0]];
-    exactly(ClaimPart::named("covered"), distortion, &[[0.25], [0.75]], covered)
-        .and(|| exactly(ClaimPart::named("nothing-else"), distortion, &points, nothing_else))
+/// `-(1 - t^2)/(1 + t^2)`, its sine `2 t/(1 + t^2)`.
+fn some_relay([t]: [Rational; 1], factor: Rational) -> Option<[Rational; 2]> {
+    let square = t.square();
+    let [cosine, sine] = [square - number(1.0), number(2.0) * t].map(|part| part / (number(1.0) + square));
+    let df = relay(Rational::pi() / number(4.0), sine, number(0.0));
+    Some([df.p + factor * cosine, df.q + factor * sine])
+}
+
+/// Every relay's components have the signs of the quadrant.
+fn every_relay([level, half_width, amplitude]: [Rational; 3], factor: Rational) -> Option<[Rational; 2]> {
+    let relay = RelayHysteresis::new(level, half_width, number(0.0)).ok()?;
+    let df = relay.describing_function(&Sinusoid::new(number(0.0), amplitude).ok()?).ok()?;
+    let scale = number(4.0) * level / (Rational::pi() * amplitude);
+    let share = half_width / amplitude;
+    Some([df.p - factor * scale * root(share), df.q + factor * scale * share])
 }
 
 /// The larger of the two distances that eq. 31 takes roots of is the least amplitude that the relay asks for.
-fn prove_switching_condition(distortion: Distortion) -> Verdict {
-    let functions = |[half_width, bias]: [Rational; 2], factor: Rational| {
-        let relay = RelayHysteresis::new(number(1.0), half_width, number(0.0)).ok()?;
-        let farther = (half_width - bias).abs().max((half_width + bias).abs());
-        Some([farther - factor * relay.least_amplitude(bias)])
-    };
-    let points = [[0.5, 0.2], [0.5, -0.2], [0.2, 0.5], [0.2, -0.5]];
-    exactly(ClaimPart::WHOLE, distortion, &points, functions)
+fn farther_level([half_width, bias]: [Rational; 2], factor: Rational) -> Option<[Rational; 1]> {
+    let relay = RelayHysteresis::new(number(1.0), half_width, number(0.0)).ok()?;
+    let farther = (half_width - bias).abs().max((half_width + bias).abs());
+    Some([farther - factor * relay.least_amplitude(bias)])
 }

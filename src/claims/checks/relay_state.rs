@@ -3,67 +3,62 @@
 use core::f64::consts::PI;
 
 use super::algebra::{exactly, number};
-use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Hypothesis, Verdict, claim, sample};
+use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim};
 use crate::experiment::RelayState;
 use crate::nonlinearity::RelayHysteresis;
 use crate::proof::polynomial::{Decision, Rational, decided};
 
 claim! {
     NOISE = "relay-noise" Statement
-    "While the input moves one way, noise smaller than the half-width switches the relay at most once" {
-        proof: Some(prove_noise),
-        printed: AsPrinted::Refuted(|budget| switches_once(budget, 0.0, 10.0)),
-        corrected: Some(|budget| switches_once(budget, 0.0, 1.0)),
-        falsified: |budget| switches_once(budget, 1.5, 2.0),
-        hypotheses: &[Hypothesis::needed("noise-below-half-width", |budget| switches_once(budget, 1.5, 2.0))],
-    }
+    "While the input moves one way, noise smaller than the half-width switches the relay at most once";
+    cases |all| all.min(200);
+    printed Refuted switches_once(0.0, 10.0);
+    corrected switches_once(0.0, 1.0);
+    false switches_once(1.5, 2.0);
+    needs "noise-below-half-width" switches_once(1.5, 2.0);
+    proof prove_noise;
 }
 
 /// A slow ramp through both levels with noise between the given shares of the half-width: exactly one switching.
-fn switches_once(budget: Budget, least: f64, most: f64) -> Verdict {
-    sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
-        let half_width = draw.uniform("half_width", 0.1, 1.0);
-        let noise = half_width * draw.uniform("noise_over_half_width", least, most);
-        let relay = RelayHysteresis::new(1.0, half_width, 0.0).ok()?;
-        let mut relay = RelayState::new(relay, false);
-        let (mut switchings, mut high) = (0, false);
-        for step in -500..=500 {
-            let input = f64::from(step) / 500.0 * (half_width + noise + 0.1);
-            let disturbed = input + noise * draw.unrecorded(-1.0, 1.0);
-            let now = relay.step(disturbed) > 0.0;
-            switchings += usize::from(now != high);
-            high = now;
-        }
-        Some(Case::truth(draw.note("switchings", switchings as f64) == 1.0))
-    })
+fn switches_once(draw: &mut Draw, least: f64, most: f64) -> Option<Case> {
+    let half_width = draw.uniform("half_width", 0.1, 1.0);
+    let noise = half_width * draw.uniform("noise_over_half_width", least, most);
+    let relay = RelayHysteresis::new(1.0, half_width, 0.0).ok()?;
+    let mut relay = RelayState::new(relay, false);
+    let (mut switchings, mut high) = (0, false);
+    for step in -500..=500 {
+        let input = f64::from(step) / 500.0 * (half_width + noise + 0.1);
+        let disturbed = input + noise * draw.unrecorded(-1.0, 1.0);
+        let now = relay.step(disturbed) > 0.0;
+        switchings += usize::from(now != high);
+        high = now;
+    }
+    Some(Case::truth(draw.note("switchings", switchings as f64) == 1.0))
 }
 
 claim! {
     SAMPLED_LEVEL = "sampled-level" Statement
-    "A sampled relay switches at x_a or beyond, at most one sample's motion beyond" {
-        proof: Some(prove_sampled_level),
-        printed: AsPrinted::Holds(|budget| overshoot(budget, 0.0)),
-        falsified: |budget| overshoot(budget, 0.01),
-    }
+    "A sampled relay switches at x_a or beyond, at most one sample's motion beyond";
+    printed Holds overshoot(0.0);
+    false overshoot(0.01);
+    proof prove_sampled_level;
 }
 
 /// The level at which a sampled relay switches up on a sinusoid, against `x_a (1 + least)` and `x_a` plus a step.
-fn overshoot(budget: Budget, least: f64) -> Verdict {
-    sample(budget, |draw| {
-        let (half_width, step) = (draw.uniform("half_width", 0.05, 0.95), draw.uniform("step_rad", 0.001, 0.5));
-        let start = draw.uniform("phase_rad", -0.5 * PI, -0.5 * PI + step);
-        let relay = RelayHysteresis::new(1.0, half_width, 0.0).ok()?;
-        let mut relay = RelayState::new(relay, false);
-        let mut angle = start;
-        while angle < 0.5 * PI && relay.step(libm::sin(angle)) < 0.0 {
-            angle += step;
-        }
-        if angle >= 0.5 * PI {
-            return None;
-        }
-        let level = draw.note("level", libm::sin(angle));
-        Some(Case::margin(level - half_width * (1.0 + least)).and(Case::margin(half_width + step - level)))
-    })
+fn overshoot(draw: &mut Draw, least: f64) -> Option<Case> {
+    let (half_width, step) = (draw.uniform("half_width", 0.05, 0.95), draw.uniform("step_rad", 0.001, 0.5));
+    let start = draw.uniform("phase_rad", -0.5 * PI, -0.5 * PI + step);
+    let relay = RelayHysteresis::new(1.0, half_width, 0.0).ok()?;
+    let mut relay = RelayState::new(relay, false);
+    let mut angle = start;
+    while angle < 0.5 * PI && relay.step(libm::sin(angle)) < 0.0 {
+        angle += step;
+    }
+    if angle >= 0.5 * PI {
+        return None;
+    }
+    let level = draw.note("level", libm::sin(angle));
+    Some(Case::margin(level - half_width * (1.0 + least)).and(Case::margin(half_width + step - level)))
 }
 
 /// The relay's comparisons of an input, each a number and whether it is positive, and whether the command turns.

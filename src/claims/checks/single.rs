@@ -4,7 +4,8 @@ use crate::nonlinearity::{Branch, Branches, Kernel, PiecewiseLinear, Side, Sinus
 use crate::numeric::Real;
 
 /// A kernel, by itself a characteristic; only its values are written here.
-pub(in crate::claims) struct SingleKernel<T>(pub(in crate::claims) Kernel<T>);
+#[derive(Debug)]
+pub struct SingleKernel<T>(pub Kernel<T>);
 
 impl<T: Real> PiecewiseLinear for SingleKernel<T> {
     type Number = T;

@@ -4,7 +4,7 @@
 //! the real axis; the closed form less that finite sum vanishes, as an identity of two variables.
 
 use super::family::closed_is_integral;
-use super::{Budget, ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, claim, sample, tolerance};
+use super::{Case, ClaimPart, ClaimVariable, Distortion, Draw, Evidence, Verdict, claim, tolerance};
 use crate::describing::ClosedForm;
 use crate::nonlinearity::{Arctan, Branch, NonlinearityError, Sine, Sinh, Sinusoid, Tanh};
 use crate::numeric::{Interval, Real};
@@ -87,18 +87,6 @@ impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = IdentityJet>> Smoo
 const UNIT: Interval = Interval::ONE;
 const ONE: IdentityJet = IdentityJet::constant(UNIT);
 
-/// `abs(sin(x + iy)) <= cosh y`.
-fn sine(distortion: Distortion) -> Verdict {
-    Smooth { values: Sine::new(UNIT, UNIT), series: Sine::new(ONE, ONE), strip_rad: 0.9, magnitude: |_, y| y.cosh() }
-        .prove(distortion, [[0.0, 3.0], [0.25, 3.0]])
-}
-
-/// `abs(sinh(x + iy)) <= cosh x`.
-fn sinh(distortion: Distortion) -> Verdict {
-    Smooth { values: Sinh::new(UNIT, UNIT), series: Sinh::new(ONE, ONE), strip_rad: 0.9, magnitude: |x, _| x.cosh() }
-        .prove(distortion, [[0.0, 2.0], [0.25, 3.0]])
-}
-
 /// That both of the expressions that `describing::pole` chooses from give the same root: `(c^2 + u^2)(c^2 + l^2)` is
 /// `(c^2 - u l)^2 + c^2 (u + l)^2`, as polynomials of degree 4, 2, 2 are that agree on 5 by 3 by 3 points.
 fn roots_agree() -> bool {
@@ -108,56 +96,50 @@ fn roots_agree() -> bool {
     })
 }
 
-/// `abs(atan(x + iy)) <= pi/2 + atanh(abs(y))` for `abs(y) < 1`.
-fn arctan(distortion: Distortion) -> Verdict {
-    let magnitude = |_, y: Interval| Interval::PI / Interval::two() + y.atanh();
-    Smooth { values: Arctan::new(UNIT, UNIT), series: Arctan::new(ONE, ONE), strip_rad: 0.3, magnitude }
-        .prove(distortion, [[0.0, 3.0], [0.25, 3.0]])
-}
-
-/// `abs(tanh(x + iy)) <= max(1, tan(abs(y)))` for `abs(y) < pi/2`. Both formulas that the code chooses from.
-fn tanh(distortion: Distortion) -> Verdict {
-    let magnitude = |_, y: Interval| y.tan().max(Interval::ONE);
-    let tanh = Smooth { values: Tanh::new(UNIT, UNIT), series: Tanh::new(ONE, ONE), strip_rad: 0.45, magnitude };
-    tanh.prove(distortion, [[0.0, 2.25], [0.25, 3.0]]).and(|| tanh.prove(distortion, [[4.5, 5.5], [0.5, 2.0]]))
-}
-
 /// Makes a characteristic from gain and scale.
 type Make<C> = fn(f64, f64) -> Result<C, NonlinearityError>;
 
 /// Closed form times `factor` against quadrature, gains and biases of either sign.
-fn smooth_is_integral<C: ClosedForm<Number = f64>>(budget: Budget, make: Make<C>, factor: f64) -> Verdict {
-    sample(budget, |draw| {
-        let characteristic = make(draw.uniform("gain", -2.0, 2.0), draw.uniform("scale", 0.2, 2.0));
-        let sweep = Sinusoid::new(draw.uniform("bias", -2.0, 2.0), draw.uniform("amplitude", 0.1, 2.0));
-        let (characteristic, sweep) = (characteristic.ok()?, sweep.ok()?);
-        let [low, high] =
-            [sweep.minimum(), sweep.maximum()].map(|x| characteristic.output(x, Branch::Rising, &sweep).abs());
-        closed_is_integral(draw, &characteristic, &sweep, low.max(high).max(1e-3), factor)
-    })
+fn smooth_is_integral<C: ClosedForm<Number = f64>>(draw: &mut Draw, make: Make<C>, factor: f64) -> Option<Case> {
+    let characteristic = make(draw.uniform("gain", -2.0, 2.0), draw.uniform("scale", 0.2, 2.0));
+    let sweep = Sinusoid::new(draw.uniform("bias", -2.0, 2.0), draw.uniform("amplitude", 0.1, 2.0));
+    let (characteristic, sweep) = (characteristic.ok()?, sweep.ok()?);
+    let [low, high] =
+        [sweep.minimum(), sweep.maximum()].map(|x| characteristic.output(x, Branch::Rising, &sweep).abs());
+    closed_is_integral(draw, &characteristic, &sweep, low.max(high).max(1e-3), factor)
 }
 
-/// One line a claim: constant, id, statement, constructor and proof.
+/// Rows: constant, id, statement; constructor, strip, bound of the magnitude, and boxes of bias and amplitude.
 macro_rules! smooth {
-    ($($constant:ident = $id:literal $statement:literal, $type:ident $proof:ident;)+) => {
+    ($($constant:ident = $id:literal $statement:literal,
+       $type:ident, strip $strip_rad:literal, below $magnitude:expr, on $($domain:expr),+;)+) => {
         $(
             claim! {
-                $constant = $id Identity
-                $statement {
-                    corrected: Some(|budget| smooth_is_integral(budget, $type::new, 1.0)),
-                    falsified: |budget| smooth_is_integral(budget, $type::new, 1.000_01),
-                    not_proved: Some("the error of the finite mean grows with the sweep, and boxes near amplitude zero cancel"),
-                    proof: Some($proof),
-                }
+                $constant = $id Identity $statement;
+                corrected smooth_is_integral($type::new, 1.0);
+                false smooth_is_integral($type::new, 1.000_01);
+                proof |distortion| {
+                    let (values, series) = ($type::new(UNIT, UNIT), $type::new(ONE, ONE));
+                    let smooth = Smooth { values, series, strip_rad: $strip_rad, magnitude: $magnitude };
+                    Verdict::all([$($domain),+].into_iter().map(|domain| smooth.prove(distortion, domain)))
+                };
+                not_proved "the error of the finite mean grows with the sweep, and boxes near amplitude zero cancel";
             }
         )+
     };
 }
 
 smooth! {
-    SINE = "sine" "F_0 and P of a sine are Bessel functions J of the amplitude, times sine and cosine of the bias", Sine sine;
+    SINE = "sine" "F_0 and P of a sine are Bessel functions J of the amplitude, times sine and cosine of the bias",
+        // `abs(sin(x + iy)) <= cosh y`.
+        Sine, strip 0.9, below |_, y| y.cosh(), on [[0.0, 3.0], [0.25, 3.0]];
     SINH = "sinh" "F_0 and P of a hyperbolic sine are Bessel functions I of the amplitude, times sinh and cosh of the bias",
-        Sinh sinh;
-    ARCTAN = "arctan" "F_0 and P of an arc tangent follow from one complex square root", Arctan arctan;
-    TANH = "tanh" "F_0 and P of a hyperbolic tangent are sums over its poles, or over exponentials on one side", Tanh tanh;
+        // `abs(sinh(x + iy)) <= cosh x`.
+        Sinh, strip 0.9, below |x, _| x.cosh(), on [[0.0, 2.0], [0.25, 3.0]];
+    ARCTAN = "arctan" "F_0 and P of an arc tangent follow from one complex square root",
+        // `abs(atan(x + iy)) <= pi/2 + atanh(abs(y))` for `abs(y) < 1`.
+        Arctan, strip 0.3, below |_, y| Interval::PI / Interval::two() + y.atanh(), on [[0.0, 3.0], [0.25, 3.0]];
+    TANH = "tanh" "F_0 and P of a hyperbolic tangent are sums over its poles, or over exponentials on one side",
+        // `abs(tanh(x + iy)) <= max(1, tan(abs(y)))` for `abs(y) < pi/2`. Both formulas that the code chooses from.
+        Tanh, strip 0.45, below |_, y| y.tan().max(UNIT), on [[0.0, 2.25], [0.25, 3.0]], [[4.5, 5.5], [0.5, 2.0]];
 }

@@ -16,10 +16,10 @@ use crate::proof::branch_and_bound::prove_positive;
 
 /// A breakpoint that rises by a share of the amplitude takes more than this times that share from the mean of a unit
 /// step on a branch; the least there is is `1/(2 pi)`.
-const RATE: f64 = 1.0 / 7.0;
+pub const RATE: f64 = 1.0 / 7.0;
 
 /// That the integral falls at more than `rate` everywhere on the sweep, `dh/dphi > rate sin(phi)`: margin and boxes.
-fn falls(rate: f64) -> Option<(f64, usize)> {
+pub fn falls(rate: f64) -> Option<(f64, usize)> {
     let excess = |&[phi]: &[Interval; 1]| KernelForm::Step.slope(phi)[0] - Interval::point(rate) * phi.sin();
     let found = prove_positive(excess, [Interval::ZERO.hull(Interval::PI)], 20_000).ok()?;
     Some((found.bound.value(), found.boxes))
@@ -31,34 +31,4 @@ pub(super) fn by_steps(distortion: Distortion, parts: &'static [ClaimPart]) -> V
         Some((margin, boxes)) => Verdict::Holds(Evidence::inequality(ClaimDomain::new(parts), margin, boxes)),
         None => Verdict::undecided("20000 boxes for the mean of a step"),
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{RATE, falls};
-    use crate::claims::checks::single::SingleKernel;
-    use crate::describing::{KernelForm, by_quadrature};
-    use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
-
-    #[test]
-    fn the_rate_is_below_the_least_and_no_other_is_proved() {
-        let least = 0.5 / core::f64::consts::PI;
-        assert!(falls(RATE).is_some_and(|(margin, _)| margin > 0.0 && margin <= least - RATE));
-        assert!(falls(least - 1e-4).is_some());
-        assert!(falls(least + 1e-9).is_none());
-        assert!(falls(1.0 / 6.0).is_none());
-    }
-
-    /// The slope that the proof takes for the integral's, against differences of the integral by quadrature.
-    #[test]
-    fn the_slope_is_that_of_the_integral() {
-        let mean = |phi: f64| {
-            let kernel = Kernel::Step { at: phi.cos(), height: 1.0, side: Side::Above, branches: Branches::Rising };
-            by_quadrature(&SingleKernel(kernel), &Sinusoid::new(0.0, 1.0).unwrap()).unwrap().f0
-        };
-        for phi in [0.1, 0.7, 1.5, 2.9] {
-            let slope: [f64; 3] = KernelForm::Step.slope(phi);
-            assert!(((mean(phi + 1e-3) - mean(phi - 1e-3)) / 2e-3 - slope[0]).abs() < 1e-9, "{phi}");
-        }
-    }
 }

@@ -1,9 +1,9 @@
 //! Theorems 2 and 3: when the self-oscillations of a closed loop are symmetric, on exact orbits and on the first harmonic.
 
 use super::algebra::{exactly, number};
-use super::existence::return_error;
+use super::existence::{return_error, with_integrator};
 use super::step::by_steps;
-use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::balance::{LipschitzLoop, OddCharacteristic};
 use crate::describing::{bias_of_output, by_quadrature};
 use crate::nonlinearity::{Custom, RelayHysteresis, Sinusoid};
@@ -13,8 +13,8 @@ use crate::plant::TransferFunction;
 use crate::proof::polynomial::Rational;
 
 /// Closed loops are dear: a hundredth of the cases that a formula gets.
-fn few(budget: Budget) -> Budget {
-    Budget { cases: budget.cases.div_ceil(100), ..budget }
+fn few(cases: usize) -> usize {
+    cases.div_ceil(100)
 }
 
 /// A plant with lags, with or without an integrator, under a relay whose levels may be offset.
@@ -60,21 +60,17 @@ fn symmetry(draw: &mut Draw, orbit: &ListedOrbit, centre: f64) -> Case {
 }
 
 /// Every orbit is symmetric.
-fn symmetric(budget: Budget, family: &LaggedLoop) -> Verdict {
-    sample(few(budget), |draw| {
-        let (orbits, reference) = family.orbits(draw)?;
-        let centre = if family.integrating { reference } else { 0.0 };
-        Some(orbits.iter().fold(Case::truth(true), |case, orbit| case.and(symmetry(draw, orbit, centre))))
-    })
+fn symmetric(draw: &mut Draw, family: &LaggedLoop) -> Option<Case> {
+    let (orbits, reference) = family.orbits(draw)?;
+    let centre = if family.integrating { reference } else { 0.0 };
+    Some(orbits.iter().fold(Case::truth(true), |case, orbit| case.and(symmetry(draw, orbit, centre))))
 }
 
 /// No orbit is symmetric: the margin is the least difference of times, as a share of the period.
-fn asymmetric(budget: Budget, family: &LaggedLoop) -> Verdict {
-    sample(few(budget), |draw| {
-        let (orbits, _) = family.orbits(draw)?;
-        let skew = |orbit: &ListedOrbit| skew_s(orbit).abs().lower() / orbit.period_s.upper() - tolerance::CANCELLING;
-        Some(Case::margin(draw.note("least_skew", orbits.iter().map(skew).fold(f64::INFINITY, f64::min))))
-    })
+fn asymmetric(draw: &mut Draw, family: &LaggedLoop) -> Option<Case> {
+    let (orbits, _) = family.orbits(draw)?;
+    let skew = |orbit: &ListedOrbit| skew_s(orbit).abs().lower() / orbit.period_s.upper() - tolerance::CANCELLING;
+    Some(Case::margin(draw.note("least_skew", orbits.iter().map(skew).fold(f64::INFINITY, f64::min))))
 }
 
 /// The first harmonic of `function` balances `gain/(s (s + 1)^2)`, which turns the phase over at 1 rad/s with half its gain,
@@ -88,31 +84,24 @@ fn residual(function: fn(f64) -> f64, gain: f64, bias: f64, amplitude: f64) -> O
 /// Poles of `gain/(s (s + 1)^2)` without its integrator.
 const EQUAL_LAGS: [f64; 2] = [1.0, 1.0];
 
-/// `gain/(s (s + a)(s + b))`.
-fn with_integrator([a, b]: [f64; 2], gain: f64) -> Option<TransferFunction> {
-    TransferFunction::new(&[gain], &[1.0, a + b, a * b, 0.0]).ok()
-}
-
 /// `gain/(s (s + 1)^2)` oscillates with a bias under `x^3 - 2x`, which is odd: proved, and confirmed by an integration over
 /// a period. The search begins at the first harmonic's balance: the bias solves `F_0 = 0`, the amplitude `1 + P G = 0`.
-fn odd_and_astatic_without_bias(budget: Budget) -> Verdict {
-    sample(few(budget), |draw| {
-        let gain = draw.uniform("gain", 0.56, 0.75);
-        let amplitude = ((4.0 - 2.0 / gain) / 3.75).sqrt();
-        let bias = (2.0 - 1.5 * amplitude * amplitude).sqrt();
-        let proved = || {
-            let (plant, cubic) = (with_integrator(EQUAL_LAGS, gain)?, vec![-2.0, 1.0]);
-            let cubic = OddCharacteristic::Polynomial { odd_coefficients: cubic };
-            LipschitzLoop::new(&plant, cubic).ok()?.prove_biased_near(bias, amplitude, 1.0).ok()
-        };
-        let proved = proved()?;
-        let off = return_error(&proved, EQUAL_LAGS, gain, |x| x * x * x - 2.0 * x);
-        if draw.note("off", off) > tolerance::INTEGRATED {
-            return None;
-        }
-        let least_bias = draw.note("least_bias", proved.mean().abs().lower());
-        Some(Case::margin(-least_bias / proved.amplitude().upper()))
-    })
+fn odd_and_astatic_without_bias(draw: &mut Draw) -> Option<Case> {
+    let gain = draw.uniform("gain", 0.56, 0.75);
+    let amplitude = ((4.0 - 2.0 / gain) / 3.75).sqrt();
+    let bias = (2.0 - 1.5 * amplitude * amplitude).sqrt();
+    let proved = || {
+        let (plant, cubic) = (with_integrator(EQUAL_LAGS, gain)?, vec![-2.0, 1.0]);
+        let cubic = OddCharacteristic::Polynomial { odd_coefficients: cubic };
+        LipschitzLoop::new(&plant, cubic).ok()?.prove_biased_near(bias, amplitude, 1.0).ok()
+    };
+    let proved = proved()?;
+    let off = return_error(&proved, EQUAL_LAGS, gain, |x| x * x * x - 2.0 * x);
+    if draw.note("off", off) > tolerance::INTEGRATED {
+        return None;
+    }
+    let least_bias = draw.note("least_bias", proved.mean().abs().lower());
+    Some(Case::margin(-least_bias / proved.amplitude().upper()))
 }
 
 const FIRST_HARMONIC: ClaimPart = ClaimPart::named("first-harmonic");
@@ -120,74 +109,62 @@ const RELAY_ORBITS: ClaimPart = ClaimPart::named("relay-orbits");
 
 claim! {
     THEOREM_2 = "theorem-2" Theorem
-    "Odd, nondecreasing and not zero inside the sweep: symmetric about any constant reference if the process integrates, and about none but zero if not" {
-        printed: AsPrinted::Refuted(odd_and_astatic_without_bias),
-        corrected: Some(|budget| {
-            symmetric(budget, &LaggedLoop { integrating: true, offset: false })
-                .and(|| asymmetric(budget, &LaggedLoop { integrating: false, offset: false }))
-        }),
-        // A reference that does not matter without an integrator either.
-        falsified: |budget| symmetric(budget, &LaggedLoop { integrating: false, offset: false }),
-        proof: Some(prove_theorem_2),
-        hypotheses: &[
-            Hypothesis::needed("integrating", |budget| symmetric(budget, &LaggedLoop { integrating: false, offset: false })),
-            Hypothesis::needed("odd", |budget| symmetric(budget, &LaggedLoop { integrating: true, offset: true })),
-            Hypothesis::needed("nondecreasing", odd_and_astatic_without_bias),
-            Hypothesis::stated("not-zero-inside-sweep"),
-        ],
-    }
+    "Odd, nondecreasing and not zero inside the sweep: symmetric about any constant reference if the process integrates, and about none but zero if not";
+    cases few;
+    printed Refuted odd_and_astatic_without_bias();
+    corrected symmetric(&LaggedLoop { integrating: true, offset: false })
+        and asymmetric(&LaggedLoop { integrating: false, offset: false });
+    // A reference that does not matter without an integrator either.
+    false symmetric(&LaggedLoop { integrating: false, offset: false });
+    needs "integrating" symmetric(&LaggedLoop { integrating: false, offset: false });
+    needs "odd" symmetric(&LaggedLoop { integrating: true, offset: true });
+    needs "nondecreasing" odd_and_astatic_without_bias();
+    states "not-zero-inside-sweep";
+    proof prove_theorem_2;
 }
 
 /// Gain 1 up to the input 1, then 0.2 up to the limits at -7 and 4, is not odd; and 10/(s (s + 1)(s + 2)) oscillates half-wave
 /// symmetrically under it. Proved for its odd continuation: beyond
 /// the largest input the characteristic does not matter.
-fn not_odd_and_symmetric(budget: Budget) -> Verdict {
+fn not_odd_and_symmetric(draw: &mut Draw) -> Option<Case> {
     const POLES: [f64; 2] = [1.0, 2.0];
     let limited = |x: f64| {
         let inside = x.clamp(-7.0, 4.0);
         inside.clamp(-1.0, 1.0) + 0.2 * (inside - inside.clamp(-1.0, 1.0))
     };
-    sample(few(budget), |draw| {
-        let gain = draw.uniform("gain", 9.0, 11.0);
-        let proved = || {
-            let odd = OddCharacteristic::PiecewiseLinear { kinks: vec![1.0], slopes: vec![1.0, 0.2] };
-            let plant = with_integrator(POLES, gain)?;
-            LipschitzLoop::new(&plant, odd).ok()?.prove_near(0.25 * gain, 1.4).ok()
-        };
-        let proved = proved()?;
-        let off = return_error(&proved, POLES, gain, limited);
-        let largest = proved.largest_input().ok()?;
-        if draw.note("off", off) > tolerance::INTEGRATED_ACROSS_KINKS {
-            return None;
-        }
-        Some(Case::margin(draw.note("largest_input", largest) / 4.0 - 1.0))
-    })
+    let gain = draw.uniform("gain", 9.0, 11.0);
+    let proved = || {
+        let odd = OddCharacteristic::PiecewiseLinear { kinks: vec![1.0], slopes: vec![1.0, 0.2] };
+        let plant = with_integrator(POLES, gain)?;
+        LipschitzLoop::new(&plant, odd).ok()?.prove_near(0.25 * gain, 1.4).ok()
+    };
+    let proved = proved()?;
+    let off = return_error(&proved, POLES, gain, limited);
+    let largest = proved.largest_input().ok()?;
+    if draw.note("off", off) > tolerance::INTEGRATED_ACROSS_KINKS {
+        return None;
+    }
+    Some(Case::margin(draw.note("largest_input", largest) / 4.0 - 1.0))
 }
 
 /// `x + x^2 - 1/2` is not odd, and balances an astatic process of gain 2 without bias at amplitude 1.
-fn not_odd_and_astatic_with_bias(budget: Budget) -> Verdict {
-    sample(budget, |draw| {
-        let (gain, bias, amplitude) = (draw.note("gain", 2.0), draw.note("bias", 0.0), draw.note("amplitude", 1.0));
-        let balanced = residual(|x| x + x * x - 0.5, gain, bias, amplitude);
-        Some(Case::margin(draw.note("residual", balanced?) - tolerance::QUADRATURE))
-    })
+fn not_odd_and_astatic_with_bias(draw: &mut Draw) -> Option<Case> {
+    let (gain, bias, amplitude) = (draw.note("gain", 2.0), draw.note("bias", 0.0), draw.note("amplitude", 1.0));
+    let balanced = residual(|x| x + x * x - 0.5, gain, bias, amplitude);
+    Some(Case::margin(draw.note("residual", balanced?) - tolerance::QUADRATURE))
 }
 
 claim! {
     THEOREM_3 = "theorem-3" Theorem
-    "Integrating process: an even part of one sign makes the self-oscillations asymmetric; an odd nondecreasing characteristic keeps them symmetric" {
-        printed: AsPrinted::Refuted(not_odd_and_symmetric),
-        corrected: Some(|budget| {
-            asymmetric(budget, &LaggedLoop { integrating: true, offset: true })
-                .and(|| symmetric(budget, &LaggedLoop { integrating: true, offset: false }))
-        }),
-        falsified: |budget| asymmetric(budget, &LaggedLoop { integrating: true, offset: false }),
-        proof: Some(prove_theorem_3),
-        hypotheses: &[
-            Hypothesis::needed("integrating", |budget| symmetric(budget, &LaggedLoop { integrating: false, offset: false })),
-            Hypothesis::needed("even-part-of-one-sign", not_odd_and_astatic_with_bias),
-        ],
-    }
+    "Integrating process: an even part of one sign makes the self-oscillations asymmetric; an odd nondecreasing characteristic keeps them symmetric";
+    cases few;
+    printed Refuted not_odd_and_symmetric();
+    corrected asymmetric(&LaggedLoop { integrating: true, offset: true })
+        and symmetric(&LaggedLoop { integrating: true, offset: false });
+    false asymmetric(&LaggedLoop { integrating: true, offset: false });
+    needs "integrating" symmetric(&LaggedLoop { integrating: false, offset: false });
+    needs "even-part-of-one-sign" not_odd_and_astatic_with_bias();
+    proof prove_theorem_3;
 }
 
 /// On the first harmonic by lemma 1; on exact orbits by the mean of the command and the levels at which it switches: mean zero is

@@ -1,47 +1,47 @@
 //! From the controller's forces to thrust: eqs. 1-3 and 35, Fig. 11.
 
 use super::algebra::{exactly, number};
-use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::numeric::Real;
 use crate::proof::polynomial::Rational;
 use crate::vehicle::{Allocation, BilinearThruster, Compensation, ThrustSide, Thruster};
 
 claim! {
     THRUSTER_BILINEAR = "thruster-bilinear" Identity
-    "Thrust T_nn abs(n) n - T_nu abs(n) u_a and torque alike; each thrust has one rate that turns its way and does not brake" {
-        printed: AsPrinted::Holds(|budget| bilinear(budget, 1.0, 1.0)),
-        // Still water: the rate found without the ambient speed.
-        falsified: |budget| bilinear(budget, 0.0, 1.0),
-        proof: Some(prove_bilinear),
-        hypotheses: &[Hypothesis::needed("not-braking", |budget| bilinear(budget, 1.0, 0.0))],
-    }
+    "Thrust T_nn abs(n) n - T_nu abs(n) u_a and torque alike; each thrust has one rate that turns its way and does not brake";
+    printed Holds bilinear(1.0, 1.0);
+    // Still water: the rate found without the ambient speed.
+    false bilinear(0.0, 1.0);
+    needs "not-braking" bilinear(1.0, 0.0);
+    exactly eq_1 on "whole" at &[
+        [0.5, 0.3, 0.2, 0.1, 2.0, 3.0, 9.0], [0.5, 0.3, 0.2, 0.1, -2.0, 3.0, 9.0],
+        [0.5, 0.3, 0.2, 0.1, 2.0, -3.0, 9.0], [0.5, 0.3, 0.2, 0.1, -2.0, -3.0, 9.0],
+    ];
 }
 
 /// Eq. 1 and back, `seen` the share of the ambient speed given to the inverse; rates from `least` braking rates upwards.
-fn bilinear(budget: Budget, seen: f64, least: f64) -> Verdict {
+fn bilinear(draw: &mut Draw, seen: f64, least: f64) -> Option<Case> {
     const LARGEST_RATE: f64 = 40.0;
-    sample(budget, |draw| {
-        let mut pair =
-            |names: [&'static str; 2]| (draw.log_uniform(names[0], 1e-3, 1e-1), draw.log_uniform(names[1], 1e-3, 1e-1));
-        let (thrust, torque) = (pair(["t_nn", "t_nu"]), pair(["q_nn", "q_nu"]));
-        let ambient = draw.uniform("ambient_speed_m_s", -2.0, 2.0);
-        let thruster = BilinearThruster::new(thrust, torque, LARGEST_RATE).ok()?;
-        let rate = draw.uniform("rate", -LARGEST_RATE, LARGEST_RATE);
-        if rate.abs() < least * 1.01 * thrust.1 * ambient.abs() / thrust.0 {
-            return None;
-        }
-        let eq_1 = |(by_rate, by_speed): (f64, f64)| by_rate * rate.abs() * rate - by_speed * rate.abs() * ambient;
-        let scale = |(by_rate, by_speed): (f64, f64)| (by_rate * rate * rate) + by_speed * (rate * ambient).abs();
-        let Ok(back) = thruster.rate(thruster.thrust(rate, ambient), seen * ambient) else {
-            return Some(Case::truth(false));
-        };
-        let equations = [
-            ("thrust_n", thruster.thrust(rate, ambient), eq_1(thrust), scale(thrust)),
-            ("torque_n_m", thruster.torque(rate, ambient), eq_1(torque), scale(torque)),
-        ];
-        let inverse = draw.equal(("rate_found", back), rate, LARGEST_RATE, tolerance::CANCELLING);
-        Some(inverse.and(draw.equations(equations, tolerance::ROUNDING)))
-    })
+    let mut pair =
+        |names: [&'static str; 2]| (draw.log_uniform(names[0], 1e-3, 1e-1), draw.log_uniform(names[1], 1e-3, 1e-1));
+    let (thrust, torque) = (pair(["t_nn", "t_nu"]), pair(["q_nn", "q_nu"]));
+    let ambient = draw.uniform("ambient_speed_m_s", -2.0, 2.0);
+    let thruster = BilinearThruster::new(thrust, torque, LARGEST_RATE).ok()?;
+    let rate = draw.uniform("rate", -LARGEST_RATE, LARGEST_RATE);
+    if rate.abs() < least * 1.01 * thrust.1 * ambient.abs() / thrust.0 {
+        return None;
+    }
+    let eq_1 = |(by_rate, by_speed): (f64, f64)| by_rate * rate.abs() * rate - by_speed * rate.abs() * ambient;
+    let scale = |(by_rate, by_speed): (f64, f64)| (by_rate * rate * rate) + by_speed * (rate * ambient).abs();
+    let Ok(back) = thruster.rate(thruster.thrust(rate, ambient), seen * ambient) else {
+        return Some(Case::truth(false));
+    };
+    let equations = [
+        ("thrust_n", thruster.thrust(rate, ambient), eq_1(thrust), scale(thrust)),
+        ("torque_n_m", thruster.torque(rate, ambient), eq_1(torque), scale(torque)),
+    ];
+    let inverse = draw.equal(("rate_found", back), rate, LARGEST_RATE, tolerance::CANCELLING);
+    Some(inverse.and(draw.equations(equations, tolerance::ROUNDING)))
 }
 
 /// A direction of a thruster: thrust grows from zero.
@@ -60,6 +60,11 @@ impl ThrustCurve {
         Self { quadratic, linear, dead_zone, limit: draw.uniform("limit", 100.0, 200.0) }
     }
 
+    fn command(&self, draw: &mut Draw, commands: Commands) -> f64 {
+        let [from, to] = commands(self);
+        draw.uniform("command", from, to)
+    }
+
     fn side(&self) -> Option<ThrustSide<f64>> {
         ThrustSide::new(self.quadratic, self.linear, self.dead_zone, self.limit).ok()
     }
@@ -70,40 +75,23 @@ impl ThrustCurve {
     }
 }
 
-/// The range of the random commands.
-#[derive(Clone, Copy)]
-enum Commands {
-    Turning,
-    Standing,
-    Beyond,
-}
+/// A range of random commands.
+type Commands = fn(&ThrustCurve) -> [f64; 2];
 
-impl Commands {
-    fn draw(self, draw: &mut Draw, curve: &ThrustCurve) -> f64 {
-        match self {
-            Self::Turning => draw.uniform("command", curve.dead_zone, curve.limit),
-            Self::Standing => draw.uniform("command", 0.1, curve.dead_zone),
-            Self::Beyond => draw.uniform("command", 1.01 * curve.limit, 2.0 * curve.limit),
-        }
-    }
-}
+const TURNING: Commands = |curve| [curve.dead_zone, curve.limit];
 
 claim! {
     THRUSTER_AFFINE = "thruster-affine" Identity
-    "Thrust a abs(n) n + b n is odd and has one command, sgn(T) sqrt(abs(T)/a) where b = 0" {
-        printed: AsPrinted::Holds(|budget| affine(budget, Commands::Turning, inverse)
-            .and(|| simplest(budget))),
-        // The simplest thruster's inverse for every b.
-        falsified: |budget| affine(budget, Commands::Turning, |curve, thrust| {
-            (thrust.abs() / curve.quadratic).sqrt().copysign(thrust)
-        }),
-        proof: Some(prove_affine),
-        hypotheses: &[
-            Hypothesis::needed("turning", |budget| affine(budget, Commands::Standing, inverse)),
-            Hypothesis::needed("within-limit", |budget| affine(budget, Commands::Beyond, inverse)),
-            Hypothesis::needed("thrust-grows", falling),
-        ],
-    }
+    "Thrust a abs(n) n + b n is odd and has one command, sgn(T) sqrt(abs(T)/a) where b = 0";
+    printed Holds affine(TURNING, inverse) and simplest();
+    // The simplest thruster's inverse for every b.
+    false affine(TURNING, |curve, thrust| (thrust.abs() / curve.quadratic).sqrt().copysign(thrust));
+    needs "turning" affine(|curve| [0.1, curve.dead_zone], inverse);
+    needs "within-limit" affine(|curve| [1.01 * curve.limit, 2.0 * curve.limit], inverse);
+    needs "thrust-grows" falling();
+    exactly
+        both_ways on "whole" at &[[0.5, 0.3, 1.0, 9.0, 4.0], [0.5, -0.3, 1.0, 9.0, 4.0], [-0.01, 0.3, 1.0, 9.0, 4.0]],
+        root on "whole" at &[[0.5, 1.0, 9.0, 7.0]];
 }
 
 fn inverse(curve: &ThrustCurve, thrust_n: f64) -> f64 {
@@ -111,113 +99,103 @@ fn inverse(curve: &ThrustCurve, thrust_n: f64) -> f64 {
 }
 
 /// Eq. 2 both ways, and back by `inverse`.
-fn affine(budget: Budget, commands: Commands, inverse: fn(&ThrustCurve, f64) -> f64) -> Verdict {
-    sample(budget, |draw| {
-        let curve = ThrustCurve::draw(draw, false);
-        let command = commands.draw(draw, &curve);
-        let thruster = Thruster::affine(curve.quadratic, curve.linear, curve.dead_zone, curve.limit).ok()?;
-        let thrust = curve.thrust(command);
-        let equations = [
-            ("thrust_n", thruster.thrust(command), thrust, thrust),
-            ("thrust_astern_n", thruster.thrust(-command), -thrust, thrust),
-            ("command_found", inverse(&curve, thrust), command, command),
-            ("command_astern", inverse(&curve, -thrust), -command, command),
-        ];
-        Some(draw.equations(equations, tolerance::ROUNDING))
-    })
+fn affine(draw: &mut Draw, commands: Commands, inverse: fn(&ThrustCurve, f64) -> f64) -> Option<Case> {
+    let curve = ThrustCurve::draw(draw, false);
+    let command = curve.command(draw, commands);
+    let thruster = Thruster::affine(curve.quadratic, curve.linear, curve.dead_zone, curve.limit).ok()?;
+    let thrust = curve.thrust(command);
+    let equations = [
+        ("thrust_n", thruster.thrust(command), thrust, thrust),
+        ("thrust_astern_n", thruster.thrust(-command), -thrust, thrust),
+        ("command_found", inverse(&curve, thrust), command, command),
+        ("command_astern", inverse(&curve, -thrust), -command, command),
+    ];
+    Some(draw.equations(equations, tolerance::ROUNDING))
 }
 
-fn simplest(budget: Budget) -> Verdict {
-    sample(budget, |draw| {
-        let curve = ThrustCurve::draw(draw, true);
-        let thrust = curve.thrust(Commands::Turning.draw(draw, &curve));
-        let root = (thrust / curve.quadratic).sqrt();
-        Some(draw.equal(("command_found", inverse(&curve, -thrust)), -root, root, tolerance::ROUNDING))
-    })
+fn simplest(draw: &mut Draw) -> Option<Case> {
+    let curve = ThrustCurve::draw(draw, true);
+    let thrust = curve.thrust(curve.command(draw, TURNING));
+    let root = (thrust / curve.quadratic).sqrt();
+    Some(draw.equal(("command_found", inverse(&curve, -thrust)), -root, root, tolerance::ROUNDING))
 }
 
 /// A thrust that falls before the limit has two commands: such a thruster is refused.
-fn falling(budget: Budget) -> Verdict {
-    sample(budget, |draw| {
-        let mut curve = ThrustCurve::draw(draw, false);
-        curve.quadratic = draw.note("a", -0.6 * curve.linear / curve.limit);
-        Some(Case::truth(curve.side().is_some()))
-    })
+fn falling(draw: &mut Draw) -> Option<Case> {
+    let mut curve = ThrustCurve::draw(draw, false);
+    curve.quadratic = draw.note("a", -0.6 * curve.linear / curve.limit);
+    Some(Case::truth(curve.side().is_some()))
 }
 
 claim! {
     THRUSTER_ASYMMETRIC = "thruster-asymmetric" Definition
-    "Coefficients of their own for n > 0 and n <= 0; the sign of the thrust picks the side of the inverse" {
-        printed: AsPrinted::Holds(|budget| asymmetric(budget, false)),
-        // The forward coefficients astern too.
-        falsified: |budget| asymmetric(budget, true),
-        proof: Some(prove_asymmetric),
-    }
+    "Coefficients of their own for n > 0 and n <= 0; the sign of the thrust picks the side of the inverse";
+    printed Holds asymmetric(false);
+    // The forward coefficients astern too.
+    false asymmetric(true);
+    proof prove_asymmetric;
 }
 
-fn asymmetric(budget: Budget, forward_only: bool) -> Verdict {
-    sample(budget, |draw| {
-        let (ahead, astern) = (ThrustCurve::draw(draw, false), ThrustCurve::draw(draw, false));
-        let (forward, backward) = (ahead.side()?, astern.side()?);
-        let thruster = Thruster::asymmetric(forward, if forward_only { forward } else { backward });
-        let mut case = Case::truth(thruster.thrust(0.0) == 0.0);
-        for (curve, sign) in [(ahead, 1.0), (astern, -1.0)] {
-            let command = sign * Commands::Turning.draw(draw, &curve);
-            let thrust = curve.thrust(command);
-            let found = thruster.command(thrust).unwrap_or(f64::NAN);
-            let equations =
-                [("thrust_n", thruster.thrust(command), thrust, thrust), ("command_found", found, command, command)];
-            case = case.and(draw.equations(equations, tolerance::ROUNDING));
-        }
-        Some(case)
-    })
+fn asymmetric(draw: &mut Draw, forward_only: bool) -> Option<Case> {
+    let (ahead, astern) = (ThrustCurve::draw(draw, false), ThrustCurve::draw(draw, false));
+    let (forward, backward) = (ahead.side()?, astern.side()?);
+    let thruster = Thruster::asymmetric(forward, if forward_only { forward } else { backward });
+    let mut case = Case::truth(thruster.thrust(0.0) == 0.0);
+    for (curve, sign) in [(ahead, 1.0), (astern, -1.0)] {
+        let command = sign * curve.command(draw, TURNING);
+        let thrust = curve.thrust(command);
+        let found = thruster.command(thrust).unwrap_or(f64::NAN);
+        let equations =
+            [("thrust_n", thruster.thrust(command), thrust, thrust), ("command_found", found, command, command)];
+        case = case.and(draw.equations(equations, tolerance::ROUNDING));
+    }
+    Some(case)
 }
 
 claim! {
     ALLOCATION = "allocation" Identity
-    "X = tau_1 + tau_2, N = d (tau_1 - tau_2); tau = (X +- N/d)/2 is its inverse" {
-        printed: AsPrinted::Holds(|budget| allocation(budget, 1.0, 1.0)),
-        // The two thrusters exchanged.
-        falsified: |budget| allocation(budget, -1.0, 1.0),
-        proof: Some(prove_allocation),
-        hypotheses: &[Hypothesis::needed("arm-positive", |budget| allocation(budget, 1.0, 0.0))],
-    }
+    "X = tau_1 + tau_2, N = d (tau_1 - tau_2); tau = (X +- N/d)/2 is its inverse";
+    printed Holds allocation(1.0, 1.0);
+    // The two thrusters exchanged.
+    false allocation(-1.0, 1.0);
+    needs "arm-positive" allocation(1.0, 0.0);
+    proof |distortion| exactly(ClaimPart::WHOLE, distortion, &[[0.1, 2.0, 3.0]], |at, factor| {
+        Some(pair_of_forces(at, factor)?.map(|(_, left, right, _)| left - right))
+    });
 }
 
-fn allocation(budget: Budget, sign: f64, arm_factor: f64) -> Verdict {
-    sample(budget, |draw| {
-        let arm = draw.log_uniform("arm_m", 0.01, 1.0) * arm_factor;
-        let (port, starboard) = (draw.uniform("port_n", -5.0, 5.0), draw.uniform("starboard_n", -5.0, 5.0));
-        let Ok(pair) = Allocation::pair(arm) else { return Some(Case::truth(false)) };
-        let [ahead, turning] = pair.forces(&[port, starboard]);
-        let [port_found, starboard_found] = pair.thrusts(&[ahead, turning]);
-        let split = 0.5 * (ahead + turning / arm);
-        let equations = [
-            ("x_n", ahead, port + starboard, 5.0),
-            ("n_n_m", turning, sign * arm * (port - starboard), 5.0 * arm),
-            ("port_split_n", split, port, 5.0),
-            ("port_found_n", port_found, port, 5.0),
-            ("starboard_found_n", starboard_found, starboard, 5.0),
-        ];
-        Some(draw.equations(equations, tolerance::ROUNDING))
-    })
+fn allocation(draw: &mut Draw, sign: f64, arm_factor: f64) -> Option<Case> {
+    let arm = draw.log_uniform("arm_m", 0.01, 1.0) * arm_factor;
+    let thrusts = [draw.uniform("port_n", -5.0, 5.0), draw.uniform("starboard_n", -5.0, 5.0)];
+    let Some(equations) = pair_of_forces([arm, thrusts[0], thrusts[1]], sign) else { return Some(Case::truth(false)) };
+    Some(draw.equations(equations, tolerance::ROUNDING))
+}
+
+/// Eq. 35 of an arm and two thrusts of up to 5 N, and its inverse: both sides of each equation, and its scale.
+fn pair_of_forces<T: Real>([arm, port, starboard]: [T; 3], sign: T) -> Option<[(&'static str, T, T, T); 5]> {
+    let pair = Allocation::pair(arm).ok()?;
+    let [ahead, turning] = pair.forces(&[port, starboard]);
+    let [port_found, starboard_found] = pair.thrusts(&[ahead, turning]);
+    let scale = T::from_f64(5.0);
+    Some([
+        ("x_n", ahead, port + starboard, scale),
+        ("n_n_m", turning, sign * arm * (port - starboard), scale * arm),
+        ("port_split_n", T::from_f64(0.5) * (ahead + turning / arm), port, scale),
+        ("port_found_n", port_found, port, scale),
+        ("starboard_found_n", starboard_found, starboard, scale),
+    ])
 }
 
 claim! {
     COMPENSATION = "compensation" Theorem
-    "Inverse allocation, offset and inverse maps before the thrusters leave the force asked for, plus a constant" {
-        printed: AsPrinted::Holds(|budget| compensation(budget, &Chain::INTACT)),
-        // Without the constant.
-        falsified: |budget| compensation(budget, &Chain { bias: 0.0, ..Chain::INTACT }),
-        proof: Some(prove_compensation),
-        hypotheses: &[
-            Hypothesis::needed("same-thrusters",
-                |budget| compensation(budget, &Chain { actual: 0.95, ..Chain::INTACT })),
-            Hypothesis::needed("within-limits", |budget| compensation(budget, &Chain { reach: 20.0, ..Chain::INTACT })),
-            Hypothesis::needed("outside-dead-zone",
-                |budget| compensation(budget, &Chain { offset: false, ..Chain::INTACT })),
-        ],
-    }
+    "Inverse allocation, offset and inverse maps before the thrusters leave the force asked for, plus a constant";
+    printed Holds compensation(&Chain::INTACT);
+    // Without the constant.
+    false compensation(&Chain { bias: 0.0, ..Chain::INTACT });
+    needs "same-thrusters" compensation(&Chain { actual: 0.95, ..Chain::INTACT });
+    needs "within-limits" compensation(&Chain { reach: 20.0, ..Chain::INTACT });
+    needs "outside-dead-zone" compensation(&Chain { offset: false, ..Chain::INTACT });
+    proof prove_compensation;
 }
 
 /// A compensated vehicle, and its faults.
@@ -237,52 +215,45 @@ impl Chain {
 }
 
 /// A pair of thrusters with a dead zone, both turning ahead, asked for moments about the vertical; clamped where it must be.
-fn compensation(budget: Budget, chain: &Chain) -> Verdict {
+fn compensation(draw: &mut Draw, chain: &Chain) -> Option<Case> {
     const ARM_M: f64 = 0.08;
     const LARGEST_N_M: f64 = 0.1;
-    sample(budget, |draw| {
-        let (ahead, astern) = (ThrustCurve::draw(draw, false), ThrustCurve::draw(draw, false));
-        let thruster = |factor: f64| {
-            let scaled = |curve: ThrustCurve| {
-                ThrustCurve { quadratic: factor * curve.quadratic, linear: factor * curve.linear, ..curve }.side()
-            };
-            Some(Thruster::asymmetric(scaled(ahead)?, scaled(astern)?))
+    let (ahead, astern) = (ThrustCurve::draw(draw, false), ThrustCurve::draw(draw, false));
+    let thruster = |factor: f64| {
+        let scaled = |curve: ThrustCurve| {
+            ThrustCurve { quadratic: factor * curve.quadratic, linear: factor * curve.linear, ..curve }.side()
         };
-        let (known, actual, pair) = (thruster(1.0)?, thruster(chain.actual)?, Allocation::pair(ARM_M).ok()?);
-        let made = if chain.offset {
-            Compensation::against_dead_zone(pair, [known; 2], [1.0, 1.0], [0.0, LARGEST_N_M])
-        } else {
-            Ok(Compensation::new(pair, [known; 2]))
-        };
-        // Too weak a thruster for offset and moment together.
-        let compensation = made.ok()?;
-        let moment = chain.reach * draw.uniform("moment_n_m", -LARGEST_N_M, LARGEST_N_M);
-        let Ok(commands) = compensation.commands_clamped(&[0.0, moment]) else { return Some(Case::truth(false)) };
-        let ([ahead_n, turning_n_m], bias) =
-            (compensation.delivered(&commands, &[actual; 2]), compensation.bias_forces());
-        let scale = bias[0].abs() + moment.abs() / ARM_M;
-        let equations = [
-            ("turning_n_m", turning_n_m, moment + chain.bias * bias[1], ARM_M * scale),
-            ("ahead_n", ahead_n, chain.bias * bias[0], scale),
-        ];
-        Some(draw.equations(equations, tolerance::ROUNDING))
-    })
+        Some(Thruster::asymmetric(scaled(ahead)?, scaled(astern)?))
+    };
+    let (known, actual, pair) = (thruster(1.0)?, thruster(chain.actual)?, Allocation::pair(ARM_M).ok()?);
+    let made = if chain.offset {
+        Compensation::against_dead_zone(pair, [known; 2], [1.0, 1.0], [0.0, LARGEST_N_M])
+    } else {
+        Ok(Compensation::new(pair, [known; 2]))
+    };
+    // Too weak a thruster for offset and moment together.
+    let compensation = made.ok()?;
+    let moment = chain.reach * draw.uniform("moment_n_m", -LARGEST_N_M, LARGEST_N_M);
+    let Ok(commands) = compensation.commands_clamped(&[0.0, moment]) else { return Some(Case::truth(false)) };
+    let ([ahead_n, turning_n_m], bias) = (compensation.delivered(&commands, &[actual; 2]), compensation.bias_forces());
+    let scale = bias[0].abs() + moment.abs() / ARM_M;
+    let equations = [
+        ("turning_n_m", turning_n_m, moment + chain.bias * bias[1], ARM_M * scale),
+        ("ahead_n", ahead_n, chain.bias * bias[0], scale),
+    ];
+    Some(draw.equations(equations, tolerance::ROUNDING))
 }
 
 /// Eq. 1, and its rate: coefficients of thrust and torque, speed of the water, rate, largest rate.
-fn prove_bilinear(distortion: Distortion) -> Verdict {
-    let functions = |[t_nn, t_nu, q_nn, q_nu, ambient, rate, largest]: [Rational; 7], factor: Rational| {
-        let thruster = BilinearThruster::new((t_nn, t_nu), (q_nn, q_nu), largest).ok()?;
-        let eq_1 = |by_rate, by_speed| by_rate * rate.abs() * rate - by_speed * rate.abs() * ambient;
-        let thrust = thruster.thrust(rate, ambient);
-        Some([
-            thrust - factor * eq_1(t_nn, t_nu),
-            thruster.torque(rate, ambient) - eq_1(q_nn, q_nu),
-            thruster.rate(thrust, ambient).ok()? - rate,
-        ])
-    };
-    let at = |ambient, rate| [0.5, 0.3, 0.2, 0.1, ambient, rate, 9.0];
-    exactly(ClaimPart::WHOLE, distortion, &[at(2.0, 3.0), at(-2.0, 3.0), at(2.0, -3.0), at(-2.0, -3.0)], functions)
+fn eq_1([t_nn, t_nu, q_nn, q_nu, ambient, rate, largest]: [Rational; 7], factor: Rational) -> Option<[Rational; 3]> {
+    let thruster = BilinearThruster::new((t_nn, t_nu), (q_nn, q_nu), largest).ok()?;
+    let eq_1 = |by_rate, by_speed| by_rate * rate.abs() * rate - by_speed * rate.abs() * ambient;
+    let thrust = thruster.thrust(rate, ambient);
+    Some([
+        thrust - factor * eq_1(t_nn, t_nu),
+        thruster.torque(rate, ambient) - eq_1(q_nn, q_nu),
+        thruster.rate(thrust, ambient).ok()? - rate,
+    ])
 }
 
 /// Eq. 2 at a command, and the commands found for the thrusts there: on a side, the terms that must vanish.
@@ -297,25 +268,19 @@ fn eq_2(
     Some([thrust - factor * printed, thruster.command(thrust).ok()? - command])
 }
 
-/// Coefficients, dead zone, limit and a command between them: both coefficients positive, or a single coefficient.
-fn prove_affine(distortion: Distortion) -> Verdict {
-    let functions = |[quadratic, linear, dead_zone, limit, command]: [Rational; 5], factor: Rational| {
-        let thruster = Thruster::affine(quadratic, linear, dead_zone, limit).ok()?;
-        let ahead = eq_2(&thruster, [quadratic, linear], command, factor)?;
-        let astern = eq_2(&thruster, [quadratic, linear], -command, factor)?;
-        Some([ahead[0], ahead[1], astern[0], astern[1], thruster.thrust(command) + thruster.thrust(-command)])
-    };
-    let simplest = |[quadratic, dead_zone, limit, thrust]: [Rational; 4], factor: Rational| {
-        let thruster = Thruster::affine(quadratic, number(0.0), dead_zone, limit).ok()?;
-        let root = (thrust / quadratic).sqrt();
-        // Of four thrusts the root is that of two commands.
-        let found = [thrust, -thrust].map(|thrust| thruster.command(thrust).ok());
-        let [ahead, astern] = found;
-        Some([ahead?.square() - factor * root.square(), astern? + ahead?])
-    };
-    let points = [[0.5, 0.3, 1.0, 9.0, 4.0], [0.5, -0.3, 1.0, 9.0, 4.0], [-0.01, 0.3, 1.0, 9.0, 4.0]];
-    exactly(ClaimPart::WHOLE, distortion, &points, functions)
-        .and(|| exactly(ClaimPart::WHOLE, distortion, &[[0.5, 1.0, 9.0, 7.0]], simplest))
+/// Eq. 2 both ways: coefficients, dead zone, limit and a command between them; both coefficients positive, or a single coefficient.
+fn both_ways([quadratic, linear, dead_zone, limit, command]: [Rational; 5], factor: Rational) -> Option<[Rational; 5]> {
+    let thruster = Thruster::affine(quadratic, linear, dead_zone, limit).ok()?;
+    let ahead = eq_2(&thruster, [quadratic, linear], command, factor)?;
+    let astern = eq_2(&thruster, [quadratic, linear], -command, factor)?;
+    Some([ahead[0], ahead[1], astern[0], astern[1], thruster.thrust(command) + thruster.thrust(-command)])
+}
+
+/// Of four thrusts the root is that of two commands.
+fn root([quadratic, dead_zone, limit, thrust]: [Rational; 4], factor: Rational) -> Option<[Rational; 2]> {
+    let thruster = Thruster::affine(quadratic, number(0.0), dead_zone, limit).ok()?;
+    let [ahead, astern] = [thrust, -thrust].map(|thrust| thruster.command(thrust).ok());
+    Some([ahead?.square() - factor * (thrust / quadratic).sqrt().square(), astern? + ahead?])
 }
 
 /// Coefficients, dead zone, limit and command of either side.
@@ -333,27 +298,6 @@ fn prove_asymmetric(distortion: Distortion) -> Verdict {
     let pairs = sides.iter().flat_map(|ahead| sides.iter().map(move |astern| [*ahead, *astern]));
     let points: Vec<[f64; 10]> = pairs.map(|pair| core::array::from_fn(|i| pair[i / 5][i % 5])).collect();
     exactly(ClaimPart::WHOLE, distortion, &points, functions)
-}
-
-/// Eq. 35 and its inverse, both ways.
-fn prove_allocation(distortion: Distortion) -> Verdict {
-    let functions = |[arm, first, second]: [Rational; 3], factor: Rational| {
-        let pair = Allocation::pair(arm).ok()?;
-        let [force, moment] = pair.forces(&[first, second]);
-        let [first_found, second_found] = pair.thrusts(&[force, moment]);
-        // The same two numbers taken for force and moment.
-        let [one, other] = pair.thrusts(&[first, second]);
-        let two = number(2.0);
-        Some([
-            force - factor * (first + second),
-            moment - arm * (first - second),
-            first_found - first,
-            second_found - second,
-            one - (first + second / arm) / two,
-            other - (first - second / arm) / two,
-        ])
-    };
-    exactly(ClaimPart::WHOLE, distortion, &[[0.1, 2.0, 3.0]], functions)
 }
 
 /// A pair of thrusters with offsets against their dead zones: the thrusts asked for are those of commands within reach.

@@ -2,8 +2,8 @@
 
 use core::f64::consts::PI;
 
-use super::enclosure::zeros;
-use super::{AsPrinted, Budget, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use super::algebra::zeros;
+use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::describing::DescribingFunction;
 use crate::identify::iso::{Parameters, parameters};
 use crate::numeric::quadrature::integrate as by_quadrature;
@@ -55,64 +55,57 @@ impl Tone {
 
 claim! {
     FIRST_HARMONIC = "first-harmonic-equations" Identity
-    "On one tone the drag axis has f_R = -alpha w^2 and f_I = beta_1 w + (8/(3 pi)) beta_2 X w^2" {
-        printed: AsPrinted::Holds(|budget| left_side(budget, 8.0 / (3.0 * PI))),
-        falsified: |budget| left_side(budget, 0.85),
-        proof: Some(prove_first_harmonic),
-    }
+    "On one tone the drag axis has f_R = -alpha w^2 and f_I = beta_1 w + (8/(3 pi)) beta_2 X w^2";
+    printed Holds left_side(8.0 / (3.0 * PI));
+    false left_side(0.85);
+    proof prove_first_harmonic;
 }
 
-fn left_side(budget: Budget, sine_abs_sine: f64) -> Verdict {
-    sample(budget, |draw| {
-        let tone = Tone::draw(draw);
-        let (real, imaginary) = tone.first_harmonic();
-        let (inertia, scale) = (-tone.alpha * tone.omega * tone.omega, tone.scale());
-        let drag = (tone.linear + sine_abs_sine * tone.quadratic * tone.amplitude * tone.omega) * tone.omega;
-        Some(draw.equations([("f_r", real, inertia, scale), ("f_i", imaginary, drag, scale)], tolerance::QUADRATURE))
-    })
+fn left_side(draw: &mut Draw, sine_abs_sine: f64) -> Option<Case> {
+    let tone = Tone::draw(draw);
+    let (real, imaginary) = tone.first_harmonic();
+    let (inertia, scale) = (-tone.alpha * tone.omega * tone.omega, tone.scale());
+    let drag = (tone.linear + sine_abs_sine * tone.quadratic * tone.amplitude * tone.omega) * tone.omega;
+    Some(draw.equations([("f_r", real, inertia, scale), ("f_i", imaginary, drag, scale)], tolerance::QUADRATURE))
 }
 
 claim! {
     LINEAR_DRAG = "linear-drag" Theorem
-    "On one tone with linear drag, alpha = P/w^2 and beta = -Q/w give the parameters back" {
-        printed: AsPrinted::Holds(|budget| gives_back(budget, |tone| tone.quadratic = 0.0, |p| p.beta, |t| t.linear)),
-        falsified: |budget| gives_back(budget, |_| {}, |p| p.beta, |t| t.linear),
-        proof: Some(|distortion| prove_gives_back(distortion, false, |found| found.beta)),
-        hypotheses: &[Hypothesis::stated("one-tone")],
-    }
+    "On one tone with linear drag, alpha = P/w^2 and beta = -Q/w give the parameters back";
+    printed Holds gives_back(|tone| tone.quadratic = 0.0, |p| p.beta, |t| t.linear);
+    false gives_back(|_| {}, |p| p.beta, |t| t.linear);
+    states "one-tone";
+    proof |distortion| prove_gives_back(distortion, false, |found| found.beta);
 }
 
 claim! {
     QUADRATIC_DRAG = "quadratic-drag" Theorem
-    "On one tone with quadratic drag, alpha = P/w^2 and beta_xx = -(3 pi/8) Q/(X w^2) give the parameters back" {
-        printed: AsPrinted::Holds(|budget| gives_back(budget, |tone| tone.linear = 0.0, |p| p.beta_quadratic, |t| t.quadratic)),
-        falsified: |budget| gives_back(budget, |_| {}, |p| p.beta_quadratic, |t| t.quadratic),
-        proof: Some(|distortion| prove_gives_back(distortion, true, |found| found.beta_quadratic)),
-        hypotheses: &[Hypothesis::stated("one-tone")],
-    }
+    "On one tone with quadratic drag, alpha = P/w^2 and beta_xx = -(3 pi/8) Q/(X w^2) give the parameters back";
+    printed Holds gives_back(|tone| tone.linear = 0.0, |p| p.beta_quadratic, |t| t.quadratic);
+    false gives_back(|_| {}, |p| p.beta_quadratic, |t| t.quadratic);
+    states "one-tone";
+    proof |distortion| prove_gives_back(distortion, true, |found| found.beta_quadratic);
 }
 
 /// The relay's gain balances the left side; the identification gives back the coefficients of that side.
 fn gives_back(
-    budget: Budget,
+    draw: &mut Draw,
     law: fn(&mut Tone),
     identified: fn(&Parameters<f64>) -> f64,
     given: fn(&Tone) -> f64,
-) -> Verdict {
-    sample(budget, |draw| {
-        let mut tone = Tone::draw(draw);
-        law(&mut tone);
-        let (real, imaginary) = tone.first_harmonic();
-        let gain = DescribingFunction { f0: 0.0, p: -real, q: -imaginary };
-        let found = parameters(gain, tone.amplitude, tone.omega);
-        let drag_scale = tone.scale() / tone.omega * (1.0 + 1.0 / (tone.amplitude * tone.omega));
-        let alpha_scale = tone.scale() / (tone.omega * tone.omega);
-        let equations = [
-            ("alpha_found", found.alpha, tone.alpha, alpha_scale),
-            ("drag_found", identified(&found), given(&tone), drag_scale),
-        ];
-        Some(draw.equations(equations, tolerance::QUADRATURE))
-    })
+) -> Option<Case> {
+    let mut tone = Tone::draw(draw);
+    law(&mut tone);
+    let (real, imaginary) = tone.first_harmonic();
+    let gain = DescribingFunction { f0: 0.0, p: -real, q: -imaginary };
+    let found = parameters(gain, tone.amplitude, tone.omega);
+    let drag_scale = tone.scale() / tone.omega * (1.0 + 1.0 / (tone.amplitude * tone.omega));
+    let alpha_scale = tone.scale() / (tone.omega * tone.omega);
+    let equations = [
+        ("alpha_found", found.alpha, tone.alpha, alpha_scale),
+        ("drag_found", identified(&found), given(&tone), drag_scale),
+    ];
+    Some(draw.equations(equations, tolerance::QUADRATURE))
 }
 
 /// Products of sine, cosine and their magnitudes over a turn.

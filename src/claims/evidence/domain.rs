@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// A variable of a box, between two ends. In a claim an end may be open or infinite; the domain of a proof is closed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -13,29 +13,24 @@ pub struct ClaimVariable {
     /// Unit; 1 for a pure number.
     pub unit: Cow<'static, str>,
     /// Lower end; in JSON null stands for minus infinity.
-    #[serde(with = "lower_end")]
+    #[serde(serialize_with = "finite", deserialize_with = "lower_end")]
     pub from: f64,
     /// Upper end; in JSON null stands for infinity.
-    #[serde(with = "upper_end")]
+    #[serde(serialize_with = "finite", deserialize_with = "upper_end")]
     pub to: f64,
 }
 
-macro_rules! end {
-    ($module:ident, $infinite:expr) => {
-        mod $module {
-            use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-            pub(super) fn serialize<S: Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
-                value.is_finite().then_some(*value).serialize(to)
-            }
-            pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-                Ok(Option::deserialize(from)?.unwrap_or($infinite))
-            }
-        }
-    };
+fn finite<S: Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
+    value.is_finite().then_some(*value).serialize(to)
 }
-end!(lower_end, f64::NEG_INFINITY);
-end!(upper_end, f64::INFINITY);
+
+fn lower_end<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::NEG_INFINITY))
+}
+
+fn upper_end<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
+}
 
 impl ClaimVariable {
     /// A pure number between two ends.

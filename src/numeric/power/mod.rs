@@ -7,7 +7,8 @@
 mod constants;
 mod series;
 
-pub(crate) use series::{INNER, OUTER, STEEP};
+pub(crate) use series::STEEP;
+pub use series::{INNER, OUTER};
 #[cfg(feature = "std")]
 pub(crate) use series::{analytic_step, paired_step, step};
 

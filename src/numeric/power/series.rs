@@ -9,8 +9,8 @@ use crate::numeric::real::magnitude;
 use crate::numeric::{Interval, Real};
 
 /// The series about zero serves below, the series about infinity above; the series about 1, with radius 2, between.
-pub(crate) const INNER: f64 = 0.7;
-pub(crate) const OUTER: f64 = 1.35;
+pub const INNER: f64 = 0.7;
+pub const OUTER: f64 = 1.35;
 /// Exponent from which on the two outer series converge fast enough up to `u = 1`, where their n-th term is about
 /// `n^(-p - 3/2)`; the series about 1 would cancel.
 pub(crate) const STEEP: f64 = 8.0;
