@@ -38,13 +38,12 @@ impl ParameterPoint {
     }
 }
 
-/// The solution with the least excess; `None` where no excess suffices.
-fn least_excess(relaxation: &mut Relaxation, excess: usize) -> Option<(Vec<usize>, Vec<f64>)> {
-    let places = relaxation.places();
+/// The step with the least excess; `None` where no excess suffices.
+fn least_excess(relaxation: &mut Relaxation, excess: usize) -> Option<Vec<f64>> {
     EXCESSES.into_iter().find_map(|most| {
         relaxation.deviations[excess] = Interval::new(-1.0, most)?;
-        match relaxation.programme(&places).maximise(&[(excess, -1.0)]) {
-            Outcome::Bounded { at, .. } => Some((places.clone(), at)),
+        match relaxation.programme().maximise(&[(excess, -1.0)]) {
+            Outcome::Bounded { at, .. } => Some(at),
             Outcome::Empty { .. } => None,
         }
     })
@@ -60,12 +59,8 @@ fn confine(relaxation: &mut Relaxation, within: &[Interval], from: &[Interval], 
 }
 
 /// A point after a step; the excess, which is no unknown of the point, is omitted.
-fn moved(point: &[f64], places: &[usize], step: &[f64]) -> Vec<f64> {
-    let mut next = point.to_vec();
-    for (place, step) in places.iter().zip(step).filter(|(place, _)| **place < point.len()) {
-        next[*place] += step;
-    }
-    next
+fn moved(point: &[f64], step: &[f64]) -> Vec<f64> {
+    point.iter().zip(step).map(|(value, step)| value + step).collect()
 }
 
 impl Contractor {
@@ -126,8 +121,8 @@ impl Contractor {
             let Some(mut relaxation) = self.about(&centre, spans) else { break };
             let excess = self.add_excess(&mut relaxation);
             confine(&mut relaxation, within, from, trust);
-            let Some((places, step)) = least_excess(&mut relaxation, excess) else { break };
-            let next = moved(&centre, &places, &step);
+            let Some(step) = least_excess(&mut relaxation, excess) else { break };
+            let next = moved(&centre, &step);
             let before = best.as_ref().map_or(f64::INFINITY, |best| best.misfit);
             match self.misfit(&next) {
                 Some(misfit) if misfit < before => {
@@ -176,11 +171,10 @@ impl Contractor {
             let excess = self.add_excess(&mut relaxation);
             confine(&mut relaxation, within, within, trust);
             relaxation.deviations[excess] = Interval::point(-inside);
-            let places = relaxation.places();
-            let Outcome::Bounded { at: step, .. } = relaxation.programme(&places).maximise(&[(unknown, sign)]) else {
+            let Outcome::Bounded { at: step, .. } = relaxation.programme().maximise(&[(unknown, sign)]) else {
                 break;
             };
-            let at = moved(&best.at, &places, &step);
+            let at = moved(&best.at, &step);
             match self.misfit(&at) {
                 Some(misfit) if misfit <= 1.0 => {
                     let gain = sign * (at[unknown] - best.at[unknown]);

@@ -5,7 +5,6 @@ mod dual_simplex;
 mod safe_bound;
 #[cfg(test)]
 mod tests;
-mod vertex;
 
 pub(super) use dual_simplex::{Outcome, Programme};
 pub(super) use safe_bound::{Inequalities, Multipliers};

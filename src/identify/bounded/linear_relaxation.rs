@@ -1,8 +1,6 @@
 //! The readings over a box as linear inequalities, by multiple shooting: of every shooting interval the mean value form of the output at
 //! each sample, and the link of its end to the beginning of the next.
 
-use std::collections::BTreeSet;
-
 use serde::{Deserialize, Serialize};
 
 use super::flow::{DelayedCommand, SampleEnclosure, follow};
@@ -345,15 +343,8 @@ impl Relaxation {
         near
     }
 
-    /// The unknowns that the inequalities have.
-    pub(super) fn places(&self) -> Vec<usize> {
-        let places: BTreeSet<usize> =
-            self.inequalities.coefficients.iter().flatten().map(|(place, _)| *place).collect();
-        places.into_iter().collect()
-    }
-
-    pub(super) fn programme(&self, places: &[usize]) -> Programme {
-        Programme::of(&self.inequalities, &self.deviations, places, &self.work)
+    pub(super) fn programme(&self) -> Programme {
+        Programme::of(&self.inequalities, &self.deviations, &self.work)
     }
 
     /// The safe bound of an objective; with objective zero, of a contradiction.
@@ -363,7 +354,7 @@ impl Relaxation {
 
     /// Bounds the `unknowns` of a box, by a linear programme for each end of each. `Err` with multipliers that prove it empty.
     pub(super) fn contract(&self, at: &mut [Interval], unknowns: &[usize]) -> Result<(), Multipliers> {
-        let programme = self.programme(&self.places());
+        let programme = self.programme();
         for &unknown in unknowns {
             for sign in [1.0, -1.0] {
                 let objective = [(unknown, sign)];
@@ -391,7 +382,7 @@ impl Relaxation {
 
     /// The range of a combination of unknowns, `sum_j c_j theta_j`. `None` where the inequalities have no solution.
     pub(super) fn combination(&self, parts: &[(usize, f64)]) -> Option<Interval> {
-        let programme = self.programme(&self.places());
+        let programme = self.programme();
         let end = |sign: f64| {
             let objective: Vec<(usize, f64)> = parts.iter().map(|(place, weight)| (*place, sign * weight)).collect();
             match programme.maximise(&objective) {

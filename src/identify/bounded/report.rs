@@ -155,7 +155,7 @@ fn least_misfit(contractor: &Contractor, relaxation: Option<&Relaxation>) -> f64
     let excess = contractor.add_excess(&mut relaxation);
     relaxation.deviations[excess] = Interval::new(-1.0, 1.0).unwrap_or(Interval::ENTIRE);
     let objective = [(excess, -1.0)];
-    match relaxation.programme(&relaxation.places()).maximise(&objective) {
+    match relaxation.programme().maximise(&objective) {
         Outcome::Bounded { multipliers, .. } => {
             (Interval::ONE - Interval::point(relaxation.upper_bound(&objective, &multipliers))).lower().max(0.0)
         }
