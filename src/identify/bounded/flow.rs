@@ -307,22 +307,22 @@ impl FlowEnclosure<'_> {
 
 /// Switchings in their order: how many have certainly happened, and how many may have.
 struct Passed {
-    windows: Vec<(f64, f64)>,
+    windows: Vec<Interval>,
     done: usize,
     begun: usize,
 }
 
 impl Passed {
-    fn at(windows: Vec<(f64, f64)>, time: f64) -> Self {
-        let done = windows.iter().take_while(|(_, last)| *last <= time).count();
-        let begun = windows.iter().take_while(|(first, _)| *first <= time).count();
+    fn at(windows: Vec<Interval>, time: f64) -> Self {
+        let done = windows.iter().take_while(|window| window.upper() <= time).count();
+        let begun = windows.iter().take_while(|window| window.lower() <= time).count();
         Self { windows, done, begun }
     }
     fn next_end(&self) -> f64 {
-        self.windows.get(self.done).map_or(f64::INFINITY, |window| window.1)
+        self.windows.get(self.done).map_or(f64::INFINITY, |window| window.upper())
     }
     fn next_begin(&self) -> f64 {
-        self.windows.get(self.begun).map_or(f64::INFINITY, |window| window.0)
+        self.windows.get(self.begun).map_or(f64::INFINITY, |window| window.lower())
     }
 }
 
@@ -350,12 +350,8 @@ pub(super) fn follow(
     let (begin, end) = (times.first()?.0, times.last()?.0);
     let command = input.command;
     // The point's own switchings, of which rounding alone is uncertain, are inside those over the box.
-    let own: Vec<_> =
-        (0..command.edges()).map(|edge| input.command_at.window(edge, Interval::point(input.delay_at_s))).collect();
-    let windows = (0..command.edges()).map(|edge| {
-        let (first, last) = command.window(edge, input.delay_s);
-        (first.min(own[edge].0), last.max(own[edge].1))
-    });
+    let own: Vec<_> = input.command_at.windows(Interval::point(input.delay_at_s)).collect();
+    let windows = command.windows(input.delay_s).zip(&own).map(|(window, own)| window.hull(*own));
     let (mut over, mut at) = (Passed::at(windows.collect(), begin), Passed::at(own, begin));
     let fresh = flow.unit_impulse();
     for edge in over.done..over.begun {

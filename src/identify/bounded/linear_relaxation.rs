@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::flow::{DelayedCommand, SampleEnclosure, follow};
 use super::linear_program::{Inequalities, Multipliers, Outcome, Programme};
 use super::problem::Problem;
-use super::record::Readings;
+use super::record::{Command, Readings};
 use super::vector_field::{FieldTerm, Fields, StatePair};
 use super::work::Work;
 use crate::numeric::Interval;
@@ -160,8 +160,8 @@ impl Problem {
         let (readings, point) = (&self.records[record], points(centre));
         let instants = unknowns.instants(record);
         let command = |at: &[Interval]| {
-            let spans = (0..instants).map(|edge| at[unknowns.instant(record, edge)]);
-            (instants > 0).then(|| readings.command.with_spans(spans))
+            let spans = (0..instants).map(|edge| at[unknowns.instant(record, edge)]).collect();
+            (instants > 0).then(|| Command { spans, ..readings.command.clone() })
         };
         let (over, middle) = (command(at), command(&point));
         let input = DelayedCommand {

@@ -176,7 +176,7 @@ impl Problem {
         let driving = Interval::symmetric((-linear.lower()).max(0.0)) * speed;
         let delay_s = self.delay_s(at);
         let command = &readings.command;
-        let windows: Vec<(f64, f64)> = (0..command.edges()).map(|edge| command.window(edge, delay_s)).collect();
+        let windows: Vec<Interval> = command.windows(delay_s).collect();
         let (mut done, mut begun) = (0, 0);
         // A force that acted before the log is within the commands of the log.
         let any = Interval::symmetric(command.largest());
@@ -189,11 +189,11 @@ impl Problem {
             let stray = readings.jitter_s;
             let from = plus(readings.time_s[sample], -stray).lower();
             let to = plus(readings.time_s[sample + 1], stray).upper();
-            while windows.get(done).is_some_and(|(_, close)| *close <= from) {
+            while windows.get(done).is_some_and(|window| window.upper() <= from) {
                 done += 1;
             }
             begun = begun.max(done);
-            while windows.get(begun).is_some_and(|(open, _)| *open < to) {
+            while windows.get(begun).is_some_and(|window| window.lower() < to) {
                 begun += 1;
             }
             let acts = command.between(done, begun);
