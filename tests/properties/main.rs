@@ -8,6 +8,7 @@ mod autotune;
 mod balance;
 mod boundary;
 mod bounds;
+mod bounds_certificate;
 mod cases;
 mod catalogue;
 mod certificate;
