@@ -2,20 +2,12 @@
 //! between readings. Drag brakes: `v' <= A` for `v > 0`, where A bounds the acceleration without drag.
 
 mod monotone;
-#[cfg(test)]
-mod tests;
 
 use super::answer::Contradicting;
-use super::linear_relaxation::half_line;
 use super::problem::Problem;
-use super::vector_field::{FieldTerm, cube, shifted_square, signed_square};
+use super::vector_field::{FieldTerm, cube, shifted_square};
 use crate::numeric::{Interval, Real};
 use monotone::{Constant, SPANS};
-
-/// Trial decreases of a velocity, each twice the one before.
-const DOUBLINGS: usize = 6;
-/// Iterations of the implicit Euler step.
-const ITERATIONS: usize = 3;
 
 /// The acceleration without drag between two samples.
 #[derive(Clone, Copy, Debug)]
@@ -70,12 +62,6 @@ fn constant_spans(pushes: &[Push]) -> Vec<Constant> {
     spans
 }
 
-fn below(end: f64) -> Interval {
-    half_line(end, true)
-}
-fn above(end: f64) -> Interval {
-    half_line(end, false)
-}
 fn plus(a: f64, b: f64) -> Interval {
     Interval::point(a) + Interval::point(b)
 }
@@ -99,65 +85,7 @@ fn lagged(force: Interval, command: Interval, lags: Interval) -> Interval {
     Interval::new(lower.lower(), upper.upper()).unwrap_or(force.hull(command))
 }
 
-/// Coefficients of linear, quadratic and cubic drag over a box.
-struct Drag([Interval; 3]);
-
-impl Drag {
-    /// The least acceleration at any of the velocities.
-    fn rate(&self, v: Interval, force: Interval) -> f64 {
-        let [linear, quadratic, cubic] = self.0;
-        (force - linear * v - quadratic * signed_square(v) - cubic * v * v.square()).lower()
-    }
-
-    /// The least velocity during a duration from `v`.
-    fn least_within(&self, v: f64, force: Interval, lasted: Interval) -> f64 {
-        if self.rate(Interval::point(v), force) >= 0.0 { v } else { self.least(v, force, lasted) }
-    }
-
-    /// A lower bound of the velocity after a duration from `v`.
-    fn least(&self, v: f64, force: Interval, lasted: Interval) -> f64 {
-        if !v.is_finite() {
-            return f64::NEG_INFINITY;
-        }
-        // The least gain while the velocity is between v and `end`.
-        let gained = |end: f64, lasted: f64| {
-            let between = Interval::point(v).hull(Interval::point(end));
-            Interval::point(self.rate(between, force)) * Interval::point(lasted)
-        };
-        let after = |end: f64, lasted: f64| (Interval::point(v) + gained(end, lasted)).lower();
-        let (soon, late) = (lasted.lower(), lasted.upper());
-        if self.rate(Interval::point(v), force) < 0.0 {
-            // f is not passed: the fall on the way there takes longer, or at f the velocity rises.
-            let holds = |f: f64| after(f, late) >= f || self.rate(Interval::point(f), force) >= 0.0;
-            let furthest = gained(v, late).lower();
-            let Some(mut sure) = (0..DOUBLINGS).map(|k| v + f64::from(1 << k) * furthest).find(|f| holds(*f)) else {
-                return f64::NEG_INFINITY;
-            };
-            // The fall is no faster than between v and a velocity that is not passed.
-            for _ in 0..ITERATIONS {
-                sure = sure.max(after(sure, late).min(v));
-            }
-            return sure;
-        }
-        // Implicit Euler: m is reached if the least gain between v and m is at least m - v. Iterates alternate about the solution.
-        let (mut sure, mut beyond) = (v, (Interval::point(v) + gained(v, soon)).upper());
-        for _ in 0..ITERATIONS {
-            sure = after(beyond, soon);
-            beyond = after(sure.max(v), soon);
-        }
-        if plus(sure, -v).upper() <= gained(sure, soon).lower() { sure.max(v) } else { v }
-    }
-}
-
 impl Problem {
-    /// Drag over a box.
-    fn drag(&self, at: &[Interval]) -> Drag {
-        let linear =
-            if self.unknowns.place_of(FieldTerm::Linear).is_some() { self.linear_drag(at) } else { Interval::ZERO };
-        let linear = linear.intersection(above(self.least_linear)).unwrap_or(linear);
-        Drag([linear, self.term(FieldTerm::Quadratic, at), self.term(FieldTerm::Cubic, at)])
-    }
-
     /// The first sample after which every command that acts is in the log, wherever the reading was taken within the jitter.
     fn known(&self, record: usize, at: &[Interval]) -> usize {
         let readings = &self.records[record];
@@ -165,15 +93,16 @@ impl Problem {
         readings.time_s.partition_point(|time| *time < begin.upper())
     }
 
-    /// Of every interval between samples over a box, no speed above `fastest`; without meaning before the first known sample.
-    fn pushes(&self, record: usize, at: &[Interval], fastest: f64) -> Vec<Push> {
+    /// Of every interval between samples over a box; without meaning before the first known sample.
+    fn pushes(&self, record: usize, at: &[Interval]) -> Vec<Push> {
         let readings = &self.records[record];
         let [gain, stiffness] = [FieldTerm::Gain, FieldTerm::Stiffness].map(|term| self.term(term, at));
         let disturbance = at[self.unknowns.disturbance(record)];
-        let speed = Interval::symmetric(fastest);
-        // Negative linear drag drives.
-        let Drag([linear, ..]) = self.drag(at);
-        let driving = Interval::symmetric((-linear.lower()).max(0.0)) * speed;
+        let speed = Interval::symmetric(self.fastest);
+        // Negative linear drag drives; no less than the least coefficient is searched.
+        let has_linear = self.unknowns.place_of(FieldTerm::Linear).is_some();
+        let least = if has_linear { self.linear_drag(at).lower().max(self.least_linear) } else { 0.0 };
+        let driving = Interval::symmetric((-least).max(0.0)) * speed;
         let delay_s = self.delay_s(at);
         let command = &readings.command;
         let windows: Vec<Interval> = command.windows(delay_s).collect();
@@ -228,7 +157,7 @@ impl Problem {
             return Vec::new();
         }
         let each = (0..self.records.len()).flat_map(|record| {
-            let spans = constant_spans(&self.pushes(record, at, self.fastest));
+            let spans = constant_spans(&self.pushes(record, at));
             spans.into_iter().map(move |span| self.records[record].contradiction(record, span))
         });
         each.into_iter().find(|readings| !readings.is_empty()).unwrap_or_default()
@@ -236,10 +165,7 @@ impl Problem {
 
     /// Encloses the velocity at every sample of a record over a box. `None` where the box holds no motion.
     pub(super) fn velocities(&self, record: usize, at: &[Interval]) -> Option<Velocities> {
-        let speeds = self.below_speed(record, at, self.fastest)?;
-        let driven = self.least_linear < 0.0 || self.unknowns.place_of(FieldTerm::Stiffness).is_some();
-        // Negative drag and a spring drive less where speeds are smaller.
-        let speeds = if driven { self.below_speed(record, at, speeds.fastest())? } else { speeds };
+        let speeds = self.below_speed(record, at)?;
         Some(if self.records[record].jitter_s > 0.0 { self.stamped(record, &speeds) } else { speeds })
     }
 
@@ -256,16 +182,14 @@ impl Problem {
         let over = |values: &[Interval], interval: usize| {
             values[near(interval)].iter().copied().fold(values[interval], Interval::hull)
         };
-        let rates: Vec<Interval> = (0..intervals).map(|interval| over(&speeds.rates, interval)).collect();
-        let between: Vec<Interval> = (0..intervals)
-            .map(|interval| {
-                let range = near(interval);
-                // Beyond the first and the last reading the acceleration goes on.
-                let ends = range.start == 0 || range.end == intervals;
-                let beyond = if ends { rates[interval] * Interval::symmetric(2.0 * stray) } else { Interval::ZERO };
-                over(&speeds.between, interval) + beyond
-            })
-            .collect();
+        let stamped = (0..intervals).map(|interval| {
+            let (range, rate) = (near(interval), over(&speeds.rates, interval));
+            // Beyond the first and the last reading the acceleration goes on.
+            let ends = range.start == 0 || range.end == intervals;
+            let beyond = if ends { rate * Interval::symmetric(2.0 * stray) } else { Interval::ZERO };
+            (rate, over(&speeds.between, interval) + beyond)
+        });
+        let (rates, between): (Vec<Interval>, Vec<Interval>) = stamped.unzip();
         let at_samples = (0..=intervals)
             .map(|sample| between[sample.saturating_sub(1)].hull(between[sample.min(intervals - 1)]))
             .collect();
@@ -303,19 +227,17 @@ impl Problem {
         Some(())
     }
 
-    /// The same where no speed exceeds `fastest`.
+    /// The same of exact stamps.
     ///
     /// Drag brakes: with an acceleration without drag of at most A, a velocity v > 0 needs a way of at least `v T - A T^2/2` in the time T
     /// before it, or began in T; and ahead of a mean velocity m > 0 over T it was at least `m - A T/2`.
-    fn below_speed(&self, record: usize, at: &[Interval], fastest: f64) -> Option<Velocities> {
-        let pushes = self.pushes(record, at, fastest);
+    fn below_speed(&self, record: usize, at: &[Interval]) -> Option<Velocities> {
+        let pushes = self.pushes(record, at);
         let readings = &self.records[record];
         let value = &readings.value;
         let half = Interval::point(0.5);
-        let drag = self.drag(at);
         let known = self.known(record, at).min(value.len() - 1);
-        let mut speeds = vec![Interval::symmetric(self.fastest); known];
-        speeds.resize(value.len(), Interval::symmetric(fastest));
+        let mut speeds = vec![Interval::symmetric(self.fastest); value.len()];
         for span in SPANS {
             for first in known..value.len().saturating_sub(span) {
                 let last = first + span;
@@ -335,52 +257,23 @@ impl Problem {
                 let slow = (mean - half_down).lower().min(-down);
                 speeds[last] = speeds[last].intersection(Interval::new(slow, fast)?)?;
                 let (least, largest) = ((mean - half_up).lower(), (mean + half_down).upper());
-                if least > 0.0 {
-                    speeds[first] = speeds[first].intersection(above(least))?;
-                }
-                if largest < 0.0 {
-                    speeds[first] = speeds[first].intersection(below(largest))?;
-                }
+                let least = if least > 0.0 { least } else { f64::NEG_INFINITY };
+                let largest = if largest < 0.0 { largest } else { f64::INFINITY };
+                speeds[first] = speeds[first].intersection(Interval::new(least, largest)?)?;
             }
         }
         let spans = if self.is_autonomous() { constant_spans(&pushes) } else { Vec::new() };
         for span in &spans {
             readings.monotone(*span, &mut speeds)?;
         }
-        for sample in known + 1..value.len() {
-            let [up, down] = pushes[sample - 1].gains(readings.lasted(sample - 1, sample));
-            let before = speeds[sample - 1];
-            let fast = below(plus(before.upper().max(0.0), up).upper());
-            let slow = above(plus(before.lower().min(0.0), -down).lower());
-            speeds[sample] = speeds[sample].intersection(fast)?.intersection(slow)?;
-            let lasted = readings.lasted(sample - 1, sample);
-            let force = pushes[sample - 1].force;
-            let least = drag.least(before.lower(), force, lasted);
-            let largest = -drag.least(-before.upper(), -force, lasted);
-            speeds[sample] = speeds[sample].intersection(above(least))?.intersection(below(largest))?;
-        }
-        for sample in (known + 1..value.len()).rev() {
-            let [up, down] = pushes[sample - 1].gains(readings.lasted(sample - 1, sample));
-            let (least, largest) =
-                (plus(speeds[sample].lower(), -up).lower(), plus(speeds[sample].upper(), down).upper());
-            if least > 0.0 {
-                speeds[sample - 1] = speeds[sample - 1].intersection(above(least))?;
-            }
-            if largest < 0.0 {
-                speeds[sample - 1] = speeds[sample - 1].intersection(below(largest))?;
-            }
-        }
         let mut between_samples = vec![Interval::symmetric(self.fastest); known];
         for sample in known + 1..value.len() {
-            let (push, lasted) = (pushes[sample - 1], readings.lasted(sample - 1, sample));
-            let (before, after) = (speeds[sample - 1], speeds[sample]);
-            let least = drag.least_within(before.lower(), push.force, lasted);
-            let largest = -drag.least_within(-before.upper(), -push.force, lasted);
-            let range = between(before, after, push, lasted);
-            between_samples.push(range.intersection(above(least))?.intersection(below(largest))?);
+            let lasted = readings.lasted(sample - 1, sample);
+            let passed = between(speeds[sample - 1], speeds[sample], pushes[sample - 1], lasted);
+            speeds[sample] = speeds[sample].intersection(passed)?;
+            between_samples.push(passed);
         }
         for span in &spans {
-            readings.monotone(*span, &mut speeds)?;
             for sample in span.first..span.last {
                 let passed = speeds[sample].hull(speeds[sample + 1]);
                 between_samples[sample] = between_samples[sample].intersection(passed)?;
@@ -391,31 +284,5 @@ impl Problem {
         self.accelerated(record, &mut speeds)?;
         speeds.rates = self.rates(at, &pushes, &speeds.between);
         Some(speeds)
-    }
-
-    /// Whether the velocities lead from each reading to every later one.
-    pub(super) fn is_travelled(&self, record: usize, velocities: &Velocities) -> bool {
-        let readings = &self.records[record];
-        let room = Interval::two() * Interval::point(readings.error);
-        // The least and the largest way so far, less the way of the readings; and the extremes of both.
-        let (mut least, mut largest) = (Interval::ZERO, Interval::ZERO);
-        let (mut lowest, mut highest) = (Interval::ZERO, Interval::ZERO);
-        for sample in velocities.known + 1..velocities.at_samples.len() {
-            let lasted = readings.lasted(sample - 1, sample);
-            let range = velocities.between[sample - 1];
-            let way = Interval::point(readings.value[sample]) - Interval::point(readings.value[sample - 1]);
-            least += Interval::point((Interval::point(range.lower()) * lasted).lower()) - way;
-            largest += Interval::point((Interval::point(range.upper()) * lasted).upper()) - way;
-            if (least - lowest).lower() > room.upper() || (highest - largest).lower() > room.upper() {
-                return false;
-            }
-            if least.upper() < lowest.upper() {
-                lowest = least;
-            }
-            if largest.lower() > highest.lower() {
-                highest = largest;
-            }
-        }
-        true
     }
 }
