@@ -2,12 +2,20 @@
 //! between readings. Drag brakes: `v' <= A` for `v > 0`, where A bounds the acceleration without drag.
 
 mod monotone;
+#[cfg(test)]
+mod tests;
 
 use super::answer::Contradicting;
+use super::linear_relaxation::half_line;
 use super::problem::Problem;
-use super::vector_field::{FieldTerm, cube, shifted_square};
+use super::vector_field::{FieldTerm, cube, shifted_square, signed_square};
 use crate::numeric::{Interval, Real};
 use monotone::{Constant, SPANS};
+
+/// Trial decreases of a velocity, each twice the one before.
+const DOUBLINGS: usize = 6;
+/// Refinements of a decrease.
+const ITERATIONS: usize = 3;
 
 /// The acceleration without drag between two samples.
 #[derive(Clone, Copy, Debug)]
@@ -18,13 +26,6 @@ struct Push {
     force: Interval,
     /// Switchings that have acted, if none can act in between.
     since: Option<usize>,
-}
-
-impl Push {
-    /// The largest increase and decrease of a velocity in a duration.
-    fn gains(self, lasted: Interval) -> [f64; 2] {
-        [self.up, self.down].map(|push| (Interval::point(push) * Interval::point(lasted.upper())).upper())
-    }
 }
 
 const NONE: Push = Push { up: 0.0, down: 0.0, force: Interval::ZERO, since: None };
@@ -66,17 +67,6 @@ fn plus(a: f64, b: f64) -> Interval {
     Interval::point(a) + Interval::point(b)
 }
 
-/// The velocity between two samples: forwards at most `max(v_1, 0) + A t`, and at least `v_2 - A t` where that is positive; drag may brake it
-/// at once.
-fn between(first: Interval, second: Interval, push: Push, lasted: Interval) -> Interval {
-    let [up, down] = push.gains(lasted);
-    let ahead = plus(second.lower(), -up).lower();
-    let lower = if ahead > 0.0 { ahead } else { plus(first.lower().min(0.0), -down).lower() };
-    let behind = plus(second.upper(), down).upper();
-    let upper = if behind < 0.0 { behind } else { plus(first.upper().max(0.0), up).upper() };
-    Interval::new(lower, upper).unwrap_or(Interval::ENTIRE)
-}
-
 /// A force behind a lag after so many time constants: `u + (f - u) e^(-t/T)` for the ends of both ranges.
 fn lagged(force: Interval, command: Interval, lags: Interval) -> Interval {
     let left = (-lags).exp();
@@ -85,7 +75,58 @@ fn lagged(force: Interval, command: Interval, lags: Interval) -> Interval {
     Interval::new(lower.lower(), upper.upper()).unwrap_or(force.hull(command))
 }
 
+/// Coefficients of linear, quadratic and cubic drag over a box.
+struct Drag([Interval; 3]);
+
+impl Drag {
+    /// The least acceleration at any of the velocities.
+    fn rate(&self, v: Interval, force: Interval) -> f64 {
+        let [linear, quadratic, cubic] = self.0;
+        (force - linear * v - quadratic * signed_square(v) - cubic * v * v.square()).lower()
+    }
+
+    /// The velocities during a time of at most `lasted` from any of some. Drag is odd: the largest is the least of the motion turned round.
+    fn passed(&self, v: Interval, force: Interval, lasted: Interval) -> Interval {
+        let (least, largest) = (self.least(v.lower(), force, lasted), -self.least(-v.upper(), -force, lasted));
+        Interval::new(least, largest).unwrap_or(Interval::ENTIRE)
+    }
+
+    /// A lower bound of the velocity during a time of at most `lasted` from `v`.
+    fn least(&self, v: f64, force: Interval, lasted: Interval) -> f64 {
+        if !v.is_finite() {
+            return f64::NEG_INFINITY;
+        }
+        if self.rate(Interval::point(v), force) >= 0.0 {
+            return v;
+        }
+        // The least velocity after the whole time while it is between v and `end`.
+        let after = |end: f64| {
+            let rate = self.rate(Interval::point(v).hull(Interval::point(end)), force);
+            (Interval::point(v) + Interval::point(rate) * Interval::point(lasted.upper())).lower()
+        };
+        // f is not passed: the fall on the way there takes longer, or at f the velocity rises.
+        let holds = |f: f64| after(f) >= f || self.rate(Interval::point(f), force) >= 0.0;
+        let furthest = after(v) - v;
+        let Some(mut sure) = (0..DOUBLINGS).map(|k| v + f64::from(1 << k) * furthest).find(|f| holds(*f)) else {
+            return f64::NEG_INFINITY;
+        };
+        // The fall is no faster than between v and a velocity that is not passed.
+        for _ in 0..ITERATIONS {
+            sure = sure.max(after(sure).min(v));
+        }
+        sure
+    }
+}
+
 impl Problem {
+    /// Drag over a box.
+    fn drag(&self, at: &[Interval]) -> Drag {
+        let linear =
+            if self.unknowns.place_of(FieldTerm::Linear).is_some() { self.linear_drag(at) } else { Interval::ZERO };
+        let linear = linear.intersection(half_line(self.least_linear, false)).unwrap_or(linear);
+        Drag([linear, self.term(FieldTerm::Quadratic, at), self.term(FieldTerm::Cubic, at)])
+    }
+
     /// The first sample after which every command that acts is in the log, wherever the reading was taken within the jitter.
     fn known(&self, record: usize, at: &[Interval]) -> usize {
         let readings = &self.records[record];
@@ -99,10 +140,9 @@ impl Problem {
         let [gain, stiffness] = [FieldTerm::Gain, FieldTerm::Stiffness].map(|term| self.term(term, at));
         let disturbance = at[self.unknowns.disturbance(record)];
         let speed = Interval::symmetric(self.fastest);
-        // Negative linear drag drives; no less than the least coefficient is searched.
-        let has_linear = self.unknowns.place_of(FieldTerm::Linear).is_some();
-        let least = if has_linear { self.linear_drag(at).lower().max(self.least_linear) } else { 0.0 };
-        let driving = Interval::symmetric((-least).max(0.0)) * speed;
+        // Negative linear drag drives.
+        let Drag([linear, ..]) = self.drag(at);
+        let driving = Interval::symmetric((-linear.lower()).max(0.0)) * speed;
         let delay_s = self.delay_s(at);
         let command = &readings.command;
         let windows: Vec<Interval> = command.windows(delay_s).collect();
@@ -235,7 +275,7 @@ impl Problem {
         let pushes = self.pushes(record, at);
         let readings = &self.records[record];
         let value = &readings.value;
-        let half = Interval::point(0.5);
+        let (half, drag) = (Interval::point(0.5), self.drag(at));
         let known = self.known(record, at).min(value.len() - 1);
         let mut speeds = vec![Interval::symmetric(self.fastest); value.len()];
         for span in SPANS {
@@ -251,7 +291,8 @@ impl Problem {
                     down: most.down.max(push.down),
                     ..most
                 });
-                let [up, down] = most.gains(lasted);
+                let [up, down] =
+                    [most.up, most.down].map(|push| (Interval::point(push) * Interval::point(lasted.upper())).upper());
                 let [half_up, half_down] = [up, down].map(|gained| half * Interval::point(gained));
                 let fast = (mean + half_up).upper().max(up);
                 let slow = (mean - half_down).lower().min(-down);
@@ -269,7 +310,7 @@ impl Problem {
         let mut between_samples = vec![Interval::symmetric(self.fastest); known];
         for sample in known + 1..value.len() {
             let lasted = readings.lasted(sample - 1, sample);
-            let passed = between(speeds[sample - 1], speeds[sample], pushes[sample - 1], lasted);
+            let passed = drag.passed(speeds[sample - 1], pushes[sample - 1].force, lasted);
             speeds[sample] = speeds[sample].intersection(passed)?;
             between_samples.push(passed);
         }
