@@ -36,6 +36,7 @@ mod integration_oracle;
 mod interval;
 mod laws;
 mod libm_single;
+mod linear_program;
 mod manoeuvre;
 mod method_bias;
 mod motion_drag_axis;

@@ -18,7 +18,7 @@ const TOLERANCE: f64 = 1e-9;
 
 /// The result of a linear programme.
 #[derive(Clone, Debug)]
-pub(in super::super) enum Outcome {
+pub enum Outcome {
     /// Multipliers that bound the objective, and where the relaxed problem reaches the bound; zero for unknowns that no inequality has.
     Bounded { multipliers: Multipliers, at: Vec<f64> },
     /// A combination of rows that no point of the box satisfies (Farkas).
@@ -34,7 +34,7 @@ struct Constraint {
 }
 
 /// The inequalities in floating point, without those that hold all over the box; then the sides of the box.
-pub(in super::super) struct Programme {
+pub struct Programme {
     /// The unknowns that inequalities have.
     places: Vec<usize>,
     constraints: Vec<Constraint>,
@@ -49,7 +49,7 @@ fn radius(z: Interval) -> f64 {
 
 impl Programme {
     /// The relaxation with real coefficients: `a z <= b` for some a of `[a]` implies `mid(a) z <= b + rad(a) max |z|`.
-    pub(in super::super) fn of(rows: &Inequalities, deviations: &[Interval], work: &Work) -> Self {
+    pub fn of(rows: &Inequalities, deviations: &[Interval], work: &Work) -> Self {
         work.entries(rows.coefficients.iter().map(Vec::len).sum());
         let places: BTreeSet<usize> = rows.coefficients.iter().flatten().map(|(place, _)| *place).collect();
         let places: Vec<usize> = places.into_iter().collect();
@@ -86,8 +86,7 @@ impl Programme {
     }
 
     /// Number of rows.
-    #[cfg(test)]
-    pub(in super::super) fn rows(&self) -> usize {
+    pub fn rows(&self) -> usize {
         self.constraints.len() - 2 * self.places.len()
     }
 
@@ -113,7 +112,7 @@ impl Programme {
     }
 
     /// Maximises the objective.
-    pub(in super::super) fn maximise(&self, objective: &[(usize, f64)]) -> Outcome {
+    pub fn maximise(&self, objective: &[(usize, f64)]) -> Outcome {
         let column = |unknown: usize| self.places.binary_search(&unknown).ok();
         let scaled =
             |(unknown, weight): &(usize, f64)| Some((column(*unknown)?, weight * radius(self.deviations[*unknown])));

@@ -1,9 +1,11 @@
+//! The linear programmes of guaranteed bounds: the simplex method against corners, and against its own multipliers.
+
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::super::work::Work;
-use super::*;
-use crate::numeric::Interval;
+use selfosc::identify::bounded::linear_program::{Inequalities, Outcome, Programme};
+use selfosc::identify::bounded::work::Work;
+use selfosc::numeric::Interval;
 
 /// The largest value of an objective over the corners of `a . z <= b`, each where two of these meet; none where no corner is left.
 fn highest_corner(constraints: &[([f64; 2], f64)], objective: [f64; 2]) -> Option<f64> {
