@@ -214,14 +214,13 @@ impl FlowEnclosure<'_> {
         Some(())
     }
 
-    /// For the duration `h`, the command constant unless it is `uncertain`; notes those samples on the way, `ahead` from here, that are
-    /// used.
+    /// For the duration `h`, the command constant unless it is `uncertain`; notes the samples on the way, `ahead` from here.
     fn advance(
         &mut self,
         [u, u_at]: [Interval; 2],
         h: Interval,
         uncertain: bool,
-        mut ahead: &[(Interval, bool)],
+        mut ahead: &[Interval],
     ) -> Option<()> {
         let fields = self.input.fields;
         if !self.lagged() {
@@ -244,7 +243,7 @@ impl FlowEnclosure<'_> {
                 }
                 None => {
                     // The point moves by itself, and is known at the end of the step alone: the step ends with a sample.
-                    if let Some((sample, _)) = ahead.first() {
+                    if let Some(sample) = ahead.first() {
                         let until = *sample - gone;
                         if until.lower() > 0.0 && until.upper() < part.lower() {
                             part = until;
@@ -259,10 +258,9 @@ impl FlowEnclosure<'_> {
             let own = [step.within[VELOCITY], acceleration].map(|range| range.magnitude());
             self.fastest = core::array::from_fn(|k| self.fastest[k].max(own[k]));
             let last = part == left;
-            let reached =
-                ahead.iter().take_while(|(sample, _)| last || (*sample - gone).upper() <= part.upper()).count();
+            let reached = ahead.iter().take_while(|sample| last || (**sample - gone).upper() <= part.upper()).count();
             let (within, beyond) = ahead.split_at(reached);
-            for (sample, _) in within.iter().filter(|(_, used)| *used) {
+            for sample in within {
                 let time = *sample - gone;
                 let arrival = step.at(time);
                 let columns = self.carried(&arrival);
@@ -326,12 +324,11 @@ impl Passed {
     }
 }
 
-/// The motion at those of the `times` that are used, the first among them, where it starts; with sensitivities by
-/// variables, and their deviations from the point. `None` where it cannot be enclosed.
+/// The motion at the `times`, at the first of which it starts; with sensitivities by variables, and their deviations from the point. `None` where it cannot be enclosed.
 pub(super) fn follow(
     input: &DelayedCommand<'_>,
     start: StatePair,
-    times: &[(f64, bool)],
+    times: &[f64],
     variables: &[Variable],
     deviations: &[Interval],
 ) -> Option<Vec<SampleEnclosure>> {
@@ -347,7 +344,7 @@ pub(super) fn follow(
         fastest,
         nodes: Vec::new(),
     };
-    let (begin, end) = (times.first()?.0, times.last()?.0);
+    let (begin, end) = (*times.first()?, *times.last()?);
     let command = input.command;
     // The point's own switchings, of which rounding alone is uncertain, are inside those over the box.
     let own: Vec<_> = input.command_at.windows(Interval::point(input.delay_at_s)).collect();
@@ -365,10 +362,9 @@ pub(super) fn follow(
         let changes = [over.next_end(), over.next_begin(), at.next_end(), at.next_begin()];
         let until = changes.into_iter().fold(end, f64::min);
         if until > now {
-            let to = from + times[from..].partition_point(|(time, _)| *time <= until);
-            let ahead: Vec<(Interval, bool)> = (times[from..to].iter())
-                .map(|(time, used)| (Interval::point(*time) - Interval::point(now), *used))
-                .collect();
+            let to = from + times[from..].partition_point(|time| *time <= until);
+            let ahead: Vec<Interval> =
+                times[from..to].iter().map(|time| Interval::point(*time) - Interval::point(now)).collect();
             from = to;
             let commands = [command.between(over.done, over.begun), input.command_at.between(at.done, at.begun)];
             let uncertain = over.begun > over.done || at.begun > at.done || at.done != over.done;
@@ -389,8 +385,7 @@ pub(super) fn follow(
             break;
         }
     }
-    let used = times[1..].iter().filter(|(_, used)| *used).count();
-    (flow.nodes.len() == 1 + used).then_some(flow.nodes)
+    (flow.nodes.len() == times.len()).then_some(flow.nodes)
 }
 
 // Moving a switching later by z subtracts its jump during z: an impulse at the switching of the size `gain (u_before - u_after) z`, which

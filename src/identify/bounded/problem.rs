@@ -1,7 +1,5 @@
 //! The constraint satisfaction problem: records, unknowns, and the box in which they are searched.
 
-use std::collections::BTreeSet;
-
 use super::answer::{Quantity, QuantityRange};
 use super::record::{Command, Readings, Scales};
 use super::settings::{BoundedModel, DelayBound, SwitchedWhen};
@@ -49,8 +47,6 @@ pub(super) struct Problem {
     pub(super) search: Vec<Interval>,
     /// Shooting intervals of each record that are followed, from its first on.
     pub(super) horizon: usize,
-    /// Samples used as constraints, by record; `None` for all.
-    pub(super) used: Option<Vec<BTreeSet<usize>>>,
     pub(super) work: Work,
 }
 
@@ -251,7 +247,6 @@ impl Problem {
             least_linear,
             search: Vec::new(),
             horizon: usize::MAX,
-            used: None,
             work: Work::default(),
             records,
             unknowns,

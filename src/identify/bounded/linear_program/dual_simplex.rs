@@ -26,6 +26,7 @@ pub enum Outcome {
 }
 
 /// `entries . z <= limit`, over the box scaled to `[-1, 1]`.
+#[derive(Debug)]
 struct Constraint {
     entries: Vec<(usize, f64)>,
     limit: f64,
@@ -34,6 +35,7 @@ struct Constraint {
 }
 
 /// The inequalities in floating point, without those that hold all over the box; then the sides of the box.
+#[derive(Debug)]
 pub struct Programme {
     /// The unknowns that inequalities have.
     places: Vec<usize>,
