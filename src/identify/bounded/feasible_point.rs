@@ -7,7 +7,7 @@ mod tests;
 
 use super::contraction::Contractor;
 use super::linear_program::Outcome;
-use super::linear_relaxation::{Origin, Relaxation, Span, midpoints, points};
+use super::linear_relaxation::{Origin, Relaxation, midpoints, points};
 use crate::numeric::Interval;
 
 /// Linear programmes of a descent.
@@ -84,16 +84,14 @@ impl Contractor {
         excess
     }
 
-    /// The inequalities about a point over these spans, of both ends of the enclosure of each output: feasible where its misfit is.
-    fn about(&self, centre: &[f64], spans: &[Span]) -> Option<Relaxation> {
+    /// The inequalities about a point by single shooting, of both ends of the enclosure of each output: feasible where its misfit is.
+    fn about(&self, centre: &[f64]) -> Option<Relaxation> {
         let (problem, point) = (&self.problem, points(centre));
         let mut relaxation = problem.about(&point, centre.to_vec());
-        for (index, span) in spans.iter().enumerate() {
-            let motion = problem.motion(*span, &point, centre)?;
-            let record = |span: &Span| problem.unknowns.shooting[span.from].record;
-            let linked = spans.get(index + 1).is_some_and(|next| record(next) == record(span));
+        for span in problem.single_shooting() {
+            let motion = problem.motion(span, &point, centre)?;
             let before = relaxation.inequalities.limits.len();
-            problem.add_motion(*span, &motion, linked, &mut relaxation);
+            problem.add_motion(span, &motion, false, &mut relaxation);
             // Two rows of each reading: `a z <= E - inf(x - y)` become `a z <= E - sup(x - y)`.
             let pairs = relaxation.inequalities.limits[before..].chunks_exact_mut(2);
             pairs.zip(&motion).for_each(|(pair, node)| pair.iter_mut().for_each(|limit| *limit -= node.at[0].width()));
@@ -102,23 +100,13 @@ impl Contractor {
         Some(relaxation)
     }
 
-    /// A parameter with a small misfit, from the middle of a box and within another box: by single shooting, and by multiple shooting where
-    /// that leads to no feasible point.
+    /// A parameter with a small misfit, from the middle of a box and within another box.
     pub(super) fn nearest(&self, from: &[Interval], within: &[Interval]) -> Option<ParameterPoint> {
-        let single = self.descend(from, within, &self.problem.single_shooting());
-        if single.as_ref().is_some_and(ParameterPoint::is_feasible) {
-            return single;
-        }
-        let multiple = self.descend(from, within, &self.problem.multiple_shooting());
-        single.into_iter().chain(multiple).min_by(|a, b| a.misfit.total_cmp(&b.misfit))
-    }
-
-    fn descend(&self, from: &[Interval], within: &[Interval], spans: &[Span]) -> Option<ParameterPoint> {
         let (mut centre, mut best) = (midpoints(from), None::<ParameterPoint>);
         // The trust region, against the box from which the descent begins.
         let mut trust = 1.0;
         for _ in 0..MOST_STEPS {
-            let Some(mut relaxation) = self.about(&centre, spans) else { break };
+            let Some(mut relaxation) = self.about(&centre) else { break };
             let excess = self.add_excess(&mut relaxation);
             confine(&mut relaxation, within, from, trust);
             let Some(step) = least_excess(&mut relaxation, excess) else { break };
@@ -163,11 +151,10 @@ impl Contractor {
         unknown: usize,
         sign: f64,
     ) -> ParameterPoint {
-        let spans = self.problem.single_shooting();
         let inside = INSIDE * (1.0 - from.misfit);
         let (mut best, mut trust) = (from.clone(), 1.0);
         for _ in 0..MOST_STEPS {
-            let Some(mut relaxation) = self.about(&best.at, &spans) else { break };
+            let Some(mut relaxation) = self.about(&best.at) else { break };
             let excess = self.add_excess(&mut relaxation);
             confine(&mut relaxation, within, within, trust);
             relaxation.deviations[excess] = Interval::point(-inside);

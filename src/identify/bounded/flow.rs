@@ -5,7 +5,7 @@ use super::sensitivities::{Block, Variable};
 use super::taylor_step::{Arrival, FlowStep, MOST_LENGTH, TooLong};
 use super::vector_field::{FORCE, FieldTerm, Fields, StateBox, StatePair, VELOCITY, VectorField, changes_sign};
 use super::work::Work;
-use crate::numeric::{Balls, Interval};
+use crate::numeric::{Balls, Interval, Real};
 
 /// The most steps between two changes of the command.
 const MOST_STEPS: usize = 2000;
@@ -115,24 +115,17 @@ fn stride(
 /// An estimate of the time for which the velocity keeps its sign, and `false`; or, where that is nearly over, of the time after which
 /// it has changed it, and `true`.
 fn to_rest(field: &VectorField, state: &StateBox, u: Interval, left: f64) -> (f64, bool) {
-    let [x, v, f] = *state;
-    let rate = |v: Interval| field.rate(&[x, v, f], u)[VELOCITY];
-    let now = rate(v);
-    let (first, last) = (now.midpoint(), rate(Interval::ZERO).midpoint());
-    // With a rate linear in the velocity the time is v over the logarithmic mean of the rates at both ends.
-    let ratio = first / last;
-    let mean = if ratio > 0.0 && (ratio - 1.0).abs() > 1e-3 { (first - last) / libm::log(ratio) } else { first };
-    let acceleration = mean.abs().max(f64::MIN_POSITIVE);
-    let spread = 1.0 + now.radius() / first.abs().max(f64::MIN_POSITIVE);
-    let (slow, fast) = if v.lower() > 0.0 {
-        (v.lower(), v.upper())
-    } else if v.upper() < 0.0 {
-        (-v.upper(), -v.lower())
-    } else if mean < 0.0 {
-        (0.0, v.upper())
+    let (v, rate) = (state[VELOCITY], field.rate(state, u)[VELOCITY]);
+    let acceleration = rate.midpoint().abs().max(f64::MIN_POSITIVE);
+    let spread = 1.0 + rate.radius() / acceleration;
+    let fast = if v.lower() > 0.0 || v.upper() < 0.0 {
+        v.magnitude()
+    } else if rate.midpoint() < 0.0 {
+        v.upper()
     } else {
-        (0.0, -v.lower())
+        -v.lower()
     };
+    let slow = v.abs().lower();
     let (near, far) = (slow / (acceleration * spread), fast * spread / acceleration);
     if near > 1e-7 * left && near > 0.1 * (far - near) {
         return (0.98 * near, false);

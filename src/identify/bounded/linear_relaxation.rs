@@ -92,11 +92,6 @@ impl Problem {
         spans
     }
 
-    /// Shooting intervals that are followed, a span each: multiple shooting.
-    pub(super) fn multiple_shooting(&self) -> Vec<Span> {
-        self.followed().map(|(index, _)| Span::single(index)).collect()
-    }
-
     /// The motion over a span at its samples over a box, with sensitivities about `centre`. `None` where it cannot be enclosed.
     pub(super) fn motion(&self, span: Span, at: &[Interval], centre: &[f64]) -> Option<Vec<SampleEnclosure>> {
         self.follow(span, at, centre, true, self.times(span))
@@ -249,7 +244,8 @@ impl Problem {
     /// intersection: the mean value form is wide about a far centre. `None` where there is no enclosure.
     pub(super) fn shoot(&self, at: &mut [Interval], centre: Vec<f64>) -> Result<Option<Relaxation>, Disjoint> {
         let mut relaxation = self.about(at, centre);
-        for span in self.multiple_shooting() {
+        for (index, _) in self.followed() {
+            let span = Span::single(index);
             let Some(motion) = self.motion(span, at, &relaxation.centre) else { return Ok(None) };
             let record = |interval: usize| self.unknowns.shooting.get(interval).map(|own| own.record);
             let linked = record(span.to) == record(span.from) && self.followed().any(|(own, _)| own == span.to);
