@@ -18,8 +18,8 @@ const LEAST_GAIN: f64 = 1e-3;
 const SHRINK: f64 = 0.25;
 /// A feasible point is sought this share of the slack inside the readings' ranges: room for the curvature of the motion.
 const INSIDE: f64 = 0.01;
-/// Largest misfits of a linear programme, in errors beyond the first: the unknowns are scaled by their ranges, and the least suffices mostly.
-const EXCESSES: [f64; 3] = [1.0, 30.0, 1000.0];
+/// Largest misfit of a linear programme, in errors beyond the first.
+const MOST_EXCESS: f64 = 1000.0;
 /// Room about the states of an empty box, in largest errors of a reading.
 const ROOM: f64 = 30.0;
 
@@ -36,17 +36,6 @@ impl ParameterPoint {
     pub(super) fn is_feasible(&self) -> bool {
         self.misfit <= 1.0
     }
-}
-
-/// The step with the least excess; `None` where no excess suffices.
-fn least_excess(relaxation: &mut Relaxation, excess: usize) -> Option<Vec<f64>> {
-    EXCESSES.into_iter().find_map(|most| {
-        relaxation.deviations[excess] = Interval::new(-1.0, most)?;
-        match relaxation.programme().maximise(&[(excess, -1.0)]) {
-            Outcome::Bounded { at, .. } => Some(at),
-            Outcome::Empty { .. } => None,
-        }
-    })
 }
 
 /// Confines the deviations to a box, and to the trust region: a share of the widths of the box from which the steps began.
@@ -109,7 +98,8 @@ impl Contractor {
             let Some(mut relaxation) = self.about(&centre) else { break };
             let excess = self.add_excess(&mut relaxation);
             confine(&mut relaxation, within, from, trust);
-            let Some(step) = least_excess(&mut relaxation, excess) else { break };
+            relaxation.deviations[excess] = Interval::new(-1.0, MOST_EXCESS)?;
+            let Outcome::Bounded { at: step, .. } = relaxation.programme().maximise(&[(excess, -1.0)]) else { break };
             let next = moved(&centre, &step);
             let before = best.as_ref().map_or(f64::INFINITY, |best| best.misfit);
             match self.misfit(&next) {
