@@ -55,7 +55,7 @@ fn moved(point: &[f64], step: &[f64]) -> Vec<f64> {
 impl Contractor {
     /// The largest misfit of a parameter over whole records. `None` where its motion cannot be enclosed.
     pub(super) fn misfit(&self, at: &[f64]) -> Option<f64> {
-        let mut misfits = self.problem.single_shooting().into_iter().map(|span| self.problem.misfit(span, at));
+        let mut misfits = self.problem.single_shooting().map(|span| self.problem.misfit(span, at));
         misfits.try_fold(0.0, |largest: f64, misfit| Some(largest.max(misfit?)))
     }
 

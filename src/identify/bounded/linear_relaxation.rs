@@ -80,16 +80,12 @@ impl Problem {
         &self.records[self.unknowns.shooting[span.from].record].time_s[self.samples(span)]
     }
 
-    /// Records as far as they are followed, a span each: single shooting.
-    pub(super) fn single_shooting(&self) -> Vec<Span> {
-        let mut spans: Vec<Span> = Vec::new();
-        for (index, interval) in self.followed() {
-            match spans.last_mut() {
-                Some(span) if self.unknowns.shooting[span.from].record == interval.record => span.to = index + 1,
-                _ => spans.push(Span::single(index)),
-            }
-        }
-        spans
+    /// Whole records, a span each: single shooting.
+    pub(super) fn single_shooting(&self) -> impl Iterator<Item = Span> + '_ {
+        (0..self.unknowns.records()).map(|record| {
+            let from = self.unknowns.first(record);
+            Span { from, to: from + self.unknowns.intervals(record) }
+        })
     }
 
     /// The motion over a span at its samples over a box, with sensitivities about `centre`. `None` where it cannot be enclosed.

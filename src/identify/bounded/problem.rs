@@ -275,7 +275,7 @@ impl Problem {
 
     /// Numbers of shooting intervals: the first horizon, then twice as many later ones each time, at last all.
     pub(super) fn horizons(&self) -> Vec<usize> {
-        let all = self.unknowns.most_intervals();
+        let all = (0..self.records.len()).map(|record| self.unknowns.intervals(record)).max().unwrap_or(0);
         let first = FIRST_HORIZON * PER_HALF_PERIOD;
         let doubled = core::iter::successors(Some(FIRST_HORIZON), |later| Some(2 * later));
         let horizons = core::iter::once(first).chain(doubled.map(|later| first + later));

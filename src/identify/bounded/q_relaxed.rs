@@ -249,7 +249,7 @@ impl Relaxed<'_> {
     fn contradicts(&self, suspect: Outlier, pair: Groups, groups: usize, piece: &Left) -> Result<bool, IdentifyError> {
         let Some(at) = &piece.at else { return Ok(true) };
         let problem = self.problem(|place| place == suspect || self.within(pair, groups, place))?.within(at);
-        Ok(Contractor::new(problem.clone()).prune(vec![problem.search], PROOF).kept.is_empty())
+        Ok(Contractor::new(problem.clone()).prune(problem.search, PROOF).kept.is_empty())
     }
 
     /// The answer once no more outliers are found, with a number of them still `allowed`.

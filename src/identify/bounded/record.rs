@@ -79,11 +79,6 @@ impl Readings {
         (Interval::point(self.time_s[0]) + delay_s + Interval::point(self.jitter_s)).upper()
     }
 
-    /// Mean time between two switchings.
-    pub(super) fn half_period_s(&self) -> f64 {
-        (self.time_s[self.time_s.len() - 1] - self.time_s[0]) / (self.command.edges() + 1) as f64
-    }
-
     /// Time between two samples, each stamp off by at most J.
     pub(super) fn lasted(&self, first: usize, last: usize) -> Interval {
         let lasted = Interval::point(self.time_s[last]) - Interval::point(self.time_s[first]);
@@ -102,7 +97,7 @@ impl Readings {
         let (time, value) = (&self.time_s, &self.value);
         let (low, high) = value.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
         let lasted = time[time.len() - 1] - time[0];
-        let half_period_s = self.half_period_s();
+        let half_period_s = lasted / (self.command.edges() + 1) as f64;
         let (mut squares, mut count, mut fastest) = (0.0, 0.0, 0.0f64);
         let mut first = 0;
         for last in 1..time.len() {
@@ -126,6 +121,7 @@ impl Readings {
 pub(super) struct Scales {
     /// Half the range of the output.
     pub(super) amplitude: f64,
+    /// Mean time between two switchings.
     pub(super) half_period_s: f64,
     pub(super) force: f64,
     /// Root mean square of the speed.
