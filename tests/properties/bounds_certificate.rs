@@ -50,11 +50,11 @@ fn what_is_written_is_accepted_and_read_back() {
 
 /// The first combination of several inequalities of a step.
 fn combination(step: &mut Value) -> Option<&mut Vec<Value>> {
-    let several = |rows: &mut Value| rows.as_array().is_some_and(|rows| rows.len() > 1);
+    let several = |rows: &Value| rows.as_array().is_some_and(|rows| rows.len() > 1);
     let rows = match step.as_object_mut()?.iter_mut().next()? {
         (kind, body) if kind == "contract" => {
             let cuts = body["cuts"].as_array_mut()?;
-            cuts.iter_mut().map(|cut| &mut cut["rows"]).find_map(|rows| several(rows).then_some(rows))?
+            cuts.iter_mut().map(|cut| &mut cut["rows"]).find(|rows| several(rows))?
         }
         (kind, body) if kind == "exclude" => Some(&mut body["rows"]).filter(|rows| several(rows))?,
         _ => return None,

@@ -28,8 +28,6 @@ struct Push {
     since: Option<usize>,
 }
 
-const NONE: Push = Push { up: 0.0, down: 0.0, force: Interval::ZERO, since: None };
-
 /// Velocities at the samples, and between each sample and the next.
 #[derive(Clone, Debug)]
 pub(super) struct Velocities {
@@ -205,7 +203,7 @@ impl Problem {
 
     /// Encloses the velocity at every sample of a record over a box. `None` where the box holds no motion.
     pub(super) fn velocities(&self, record: usize, at: &[Interval]) -> Option<Velocities> {
-        let speeds = self.below_speed(record, at)?;
+        let speeds = self.on_exact_stamps(record, at)?;
         Some(if self.records[record].jitter_s > 0.0 { self.stamped(record, &speeds) } else { speeds })
     }
 
@@ -267,11 +265,11 @@ impl Problem {
         Some(())
     }
 
-    /// The same of exact stamps.
+    /// The same where every stamp is exact.
     ///
     /// Drag brakes: with an acceleration without drag of at most A, a velocity v > 0 needs a way of at least `v T - A T^2/2` in the time T
     /// before it, or began in T; and ahead of a mean velocity m > 0 over T it was at least `m - A T/2`.
-    fn below_speed(&self, record: usize, at: &[Interval]) -> Option<Velocities> {
+    fn on_exact_stamps(&self, record: usize, at: &[Interval]) -> Option<Velocities> {
         let pushes = self.pushes(record, at);
         let readings = &self.records[record];
         let value = &readings.value;
@@ -286,13 +284,10 @@ impl Problem {
                     continue;
                 }
                 let mean = readings.mean_velocity(first, last);
-                let most = pushes[first..last].iter().fold(NONE, |most, push| Push {
-                    up: most.up.max(push.up),
-                    down: most.down.max(push.down),
-                    ..most
-                });
-                let [up, down] =
-                    [most.up, most.down].map(|push| (Interval::point(push) * Interval::point(lasted.upper())).upper());
+                let most = pushes[first..last]
+                    .iter()
+                    .fold([0.0f64; 2], |[up, down], push| [up.max(push.up), down.max(push.down)]);
+                let [up, down] = most.map(|push| (Interval::point(push) * Interval::point(lasted.upper())).upper());
                 let [half_up, half_down] = [up, down].map(|gained| half * Interval::point(gained));
                 let fast = (mean + half_up).upper().max(up);
                 let slow = (mean - half_down).lower().min(-down);
