@@ -31,14 +31,14 @@ fn motion(samples: usize) -> Vec<[f64; 4]> {
 }
 
 /// The same, rounded to steps of `STEP`.
-fn record(samples: usize) -> Record {
+pub(crate) fn record(samples: usize) -> Record {
     let motion = motion(samples);
     let of = |value: &dyn Fn(&[f64; 4]) -> f64| motion.iter().map(value).collect();
     Record::new(of(&|[now, ..]| *now), of(&|[_, x, ..]| (x / STEP).round() * STEP), of(&|[.., u]| *u))
         .expect("a record")
 }
 
-fn settings(law: DragLaw) -> BoundedModel {
+pub(crate) fn settings(law: DragLaw) -> BoundedModel {
     BoundedModel { quantum: Some(STEP), ..BoundedModel::new(law, DelayBound::KnownS(0.0)) }
 }
 

@@ -4,7 +4,7 @@
 //! *Applied Mathematics and Computation* 105, 1999). Here each component is bounded by a scalar differential inequality, which is
 //! sharper: beyond an end of its start a component moves no faster than between the two.
 
-use super::vector_field::{FORCE, FieldTerm, POSITION, StateBox, VELOCITY, VectorField};
+use super::vector_field::{FORCE, POSITION, StateBox, VELOCITY, VectorField};
 use crate::numeric::{Interval, Real};
 
 /// Attempts before the step is called too long.
@@ -52,24 +52,6 @@ pub(super) fn enclose(start: &StateBox, h: Interval, rate: impl Fn(usize, &State
 impl VectorField {
     /// States that contain every motion for `h`.
     pub(super) fn passed(&self, start: &StateBox, u: Interval, h: Interval) -> Option<StateBox> {
-        let damped = self.passed_damped(start, u, h);
-        damped.or_else(|| enclose(start, h, |component, state| self.rate_of(component, state, u)))
-    }
-
-    /// The same without iteration where the rate of the velocity depends on the velocity alone and falls with it: beyond an end of its
-    /// start the velocity moves no faster than at that end.
-    pub(super) fn passed_damped(&self, start: &StateBox, u: Interval, h: Interval) -> Option<StateBox> {
-        if self.has(FieldTerm::Stiffness) || self.has(FieldTerm::LagRate) {
-            return None;
-        }
-        let [x, v, f] = *start;
-        let h = Interval::point(h.upper());
-        let rate = |end: f64| self.rate_of(VELOCITY, &[x, Interval::point(end), f], u);
-        let reached = |from: Interval, up: f64, down: f64| {
-            (from + h * Interval::point(up.max(0.0))).hull(from + h * Interval::point(down.min(0.0)))
-        };
-        let within = reached(v, rate(v.upper()).upper(), rate(v.lower()).lower());
-        let damped = within.is_bounded() && self.damping(within, within).upper() <= 0.0;
-        damped.then(|| [reached(x, within.upper(), within.lower()), within, f])
+        enclose(start, h, |component, state| self.rate_of(component, state, u))
     }
 }

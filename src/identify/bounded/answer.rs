@@ -122,6 +122,18 @@ impl QuantityRange {
     pub(super) fn of((quantity, side): (Quantity, crate::numeric::Interval)) -> Self {
         Self { quantity, low: side.lower(), high: side.upper() }
     }
+
+    /// The union of several sets' ranges of each quantity.
+    pub(super) fn union(ranges: impl Iterator<Item = Self>) -> Vec<Self> {
+        let mut all: Vec<Self> = Vec::new();
+        for range in ranges {
+            match all.iter_mut().find(|own| own.quantity == range.quantity) {
+                Some(own) => (own.low, own.high) = (own.low.min(range.low), own.high.max(range.high)),
+                None => all.push(range),
+            }
+        }
+        all
+    }
 }
 
 /// A parameter of the model.

@@ -107,10 +107,6 @@ pub(super) struct Division {
 }
 
 impl Division {
-    fn new() -> Self {
-        Self { last_empty: None, kept: Vec::new(), complete: true }
-    }
-
     /// Notes an empty box, where its motion shows a contradiction.
     fn exclude(&mut self, empty: Empty) {
         if empty.method == ConstraintKind::Shooting && empty.relaxation.is_some() {
@@ -151,19 +147,11 @@ impl Contractor {
         Some(parts)
     }
 
-    /// Boxes contracted and divided until the motion is followed over each remaining box, or the budget is spent.
-    pub(super) fn prune(&mut self, boxes: Vec<Vec<Interval>>, budget: usize) -> Division {
-        let mut division = Division::new();
-        let open = boxes.into_iter().map(|at| OpenBox { at, modulating: true }).collect();
-        self.prune_into(&mut division, open, budget);
-        division
-    }
-
-    fn prune_into(&mut self, division: &mut Division, boxes: Vec<OpenBox>, budget: usize) {
+    /// A box contracted and divided until the motion is followed over each remaining box, or the budget is spent.
+    pub(super) fn prune(&mut self, whole: Vec<Interval>, budget: usize) -> Division {
+        let mut division = Division { last_empty: None, kept: Vec::new(), complete: true };
         let mut queue = Queue::default();
-        for open in boxes {
-            queue.push(self.widest(&open.at).0, open);
-        }
+        queue.push(f64::INFINITY, OpenBox { at: whole, modulating: true });
         while let Some(OpenBox { mut at, modulating }) = queue.pop() {
             if self.passes() >= budget {
                 division.complete = false;
@@ -194,6 +182,7 @@ impl Contractor {
                 queue.push(self.widest(&at).0, OpenBox { at, modulating });
             }
         }
+        division
     }
 
     /// Contracts boxes by shooting, and keeps those that are not empty.

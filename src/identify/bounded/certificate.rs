@@ -9,8 +9,6 @@ mod format;
 mod multipliers;
 mod prove;
 mod statement;
-#[cfg(test)]
-mod tests;
 mod unproved;
 mod walk;
 

@@ -65,11 +65,6 @@ impl Contractor {
         Self { supports: problem.records.iter().map(of).collect(), problem, contradicting: Vec::new() }
     }
 
-    /// The same with contradictory readings, as another contractor found them.
-    pub(super) fn with_contradicting(self, contradicting: Vec<Contradicting>) -> Self {
-        Self { contradicting, ..self }
-    }
-
     /// Work so far, in passes.
     pub(super) fn passes(&self) -> usize {
         self.problem.work.passes()

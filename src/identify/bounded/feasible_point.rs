@@ -7,7 +7,7 @@ mod tests;
 
 use super::contraction::Contractor;
 use super::linear_program::Outcome;
-use super::linear_relaxation::{Origin, Relaxation, Span, midpoints, points};
+use super::linear_relaxation::{Origin, Relaxation, midpoints, points};
 use crate::numeric::Interval;
 
 /// Linear programmes of a descent.
@@ -18,8 +18,8 @@ const LEAST_GAIN: f64 = 1e-3;
 const SHRINK: f64 = 0.25;
 /// A feasible point is sought this share of the slack inside the readings' ranges: room for the curvature of the motion.
 const INSIDE: f64 = 0.01;
-/// Largest misfits of a linear programme, in errors beyond the first: the unknowns are scaled by their ranges, and the least suffices mostly.
-const EXCESSES: [f64; 3] = [1.0, 30.0, 1000.0];
+/// Largest misfit of a linear programme, in errors beyond the first.
+const MOST_EXCESS: f64 = 1000.0;
 /// Room about the states of an empty box, in largest errors of a reading.
 const ROOM: f64 = 30.0;
 
@@ -38,18 +38,6 @@ impl ParameterPoint {
     }
 }
 
-/// The solution with the least excess; `None` where no excess suffices.
-fn least_excess(relaxation: &mut Relaxation, excess: usize) -> Option<(Vec<usize>, Vec<f64>)> {
-    let places = relaxation.places();
-    EXCESSES.into_iter().find_map(|most| {
-        relaxation.deviations[excess] = Interval::new(-1.0, most)?;
-        match relaxation.programme(&places).maximise(&[(excess, -1.0)]) {
-            Outcome::Bounded { at, .. } => Some((places.clone(), at)),
-            Outcome::Empty { .. } => None,
-        }
-    })
-}
-
 /// Confines the deviations to a box, and to the trust region: a share of the widths of the box from which the steps began.
 fn confine(relaxation: &mut Relaxation, within: &[Interval], from: &[Interval], trust: f64) {
     for (place, (side, from)) in within.iter().zip(from).enumerate() {
@@ -60,18 +48,14 @@ fn confine(relaxation: &mut Relaxation, within: &[Interval], from: &[Interval], 
 }
 
 /// A point after a step; the excess, which is no unknown of the point, is omitted.
-fn moved(point: &[f64], places: &[usize], step: &[f64]) -> Vec<f64> {
-    let mut next = point.to_vec();
-    for (place, step) in places.iter().zip(step).filter(|(place, _)| **place < point.len()) {
-        next[*place] += step;
-    }
-    next
+fn moved(point: &[f64], step: &[f64]) -> Vec<f64> {
+    point.iter().zip(step).map(|(value, step)| value + step).collect()
 }
 
 impl Contractor {
     /// The largest misfit of a parameter over whole records. `None` where its motion cannot be enclosed.
     pub(super) fn misfit(&self, at: &[f64]) -> Option<f64> {
-        let mut misfits = self.problem.single_shooting().into_iter().map(|span| self.problem.misfit(span, at));
+        let mut misfits = self.problem.single_shooting().map(|span| self.problem.misfit(span, at));
         misfits.try_fold(0.0, |largest: f64, misfit| Some(largest.max(misfit?)))
     }
 
@@ -89,16 +73,14 @@ impl Contractor {
         excess
     }
 
-    /// The inequalities about a point over these spans, of both ends of the enclosure of each output: feasible where its misfit is.
-    fn about(&self, centre: &[f64], spans: &[Span]) -> Option<Relaxation> {
+    /// The inequalities about a point by single shooting, of both ends of the enclosure of each output: feasible where its misfit is.
+    fn about(&self, centre: &[f64]) -> Option<Relaxation> {
         let (problem, point) = (&self.problem, points(centre));
         let mut relaxation = problem.about(&point, centre.to_vec());
-        for (index, span) in spans.iter().enumerate() {
-            let motion = problem.motion(*span, &point, centre)?;
-            let record = |span: &Span| problem.unknowns.shooting[span.from].record;
-            let linked = spans.get(index + 1).is_some_and(|next| record(next) == record(span));
+        for span in problem.single_shooting() {
+            let motion = problem.motion(span, &point, centre)?;
             let before = relaxation.inequalities.limits.len();
-            problem.add_motion(*span, &motion, linked, &mut relaxation);
+            problem.add_motion(span, &motion, false, &mut relaxation);
             // Two rows of each reading: `a z <= E - inf(x - y)` become `a z <= E - sup(x - y)`.
             let pairs = relaxation.inequalities.limits[before..].chunks_exact_mut(2);
             pairs.zip(&motion).for_each(|(pair, node)| pair.iter_mut().for_each(|limit| *limit -= node.at[0].width()));
@@ -107,27 +89,18 @@ impl Contractor {
         Some(relaxation)
     }
 
-    /// A parameter with a small misfit, from the middle of a box and within another box: by single shooting, and by multiple shooting where
-    /// that leads to no feasible point.
+    /// A parameter with a small misfit, from the middle of a box and within another box.
     pub(super) fn nearest(&self, from: &[Interval], within: &[Interval]) -> Option<ParameterPoint> {
-        let single = self.descend(from, within, &self.problem.single_shooting());
-        if single.as_ref().is_some_and(ParameterPoint::is_feasible) {
-            return single;
-        }
-        let multiple = self.descend(from, within, &self.problem.multiple_shooting());
-        single.into_iter().chain(multiple).min_by(|a, b| a.misfit.total_cmp(&b.misfit))
-    }
-
-    fn descend(&self, from: &[Interval], within: &[Interval], spans: &[Span]) -> Option<ParameterPoint> {
         let (mut centre, mut best) = (midpoints(from), None::<ParameterPoint>);
         // The trust region, against the box from which the descent begins.
         let mut trust = 1.0;
         for _ in 0..MOST_STEPS {
-            let Some(mut relaxation) = self.about(&centre, spans) else { break };
+            let Some(mut relaxation) = self.about(&centre) else { break };
             let excess = self.add_excess(&mut relaxation);
             confine(&mut relaxation, within, from, trust);
-            let Some((places, step)) = least_excess(&mut relaxation, excess) else { break };
-            let next = moved(&centre, &places, &step);
+            relaxation.deviations[excess] = Interval::new(-1.0, MOST_EXCESS)?;
+            let Outcome::Bounded { at: step, .. } = relaxation.programme().maximise(&[(excess, -1.0)]) else { break };
+            let next = moved(&centre, &step);
             let before = best.as_ref().map_or(f64::INFINITY, |best| best.misfit);
             match self.misfit(&next) {
                 Some(misfit) if misfit < before => {
@@ -168,19 +141,17 @@ impl Contractor {
         unknown: usize,
         sign: f64,
     ) -> ParameterPoint {
-        let spans = self.problem.single_shooting();
         let inside = INSIDE * (1.0 - from.misfit);
         let (mut best, mut trust) = (from.clone(), 1.0);
         for _ in 0..MOST_STEPS {
-            let Some(mut relaxation) = self.about(&best.at, &spans) else { break };
+            let Some(mut relaxation) = self.about(&best.at) else { break };
             let excess = self.add_excess(&mut relaxation);
             confine(&mut relaxation, within, within, trust);
             relaxation.deviations[excess] = Interval::point(-inside);
-            let places = relaxation.places();
-            let Outcome::Bounded { at: step, .. } = relaxation.programme(&places).maximise(&[(unknown, sign)]) else {
+            let Outcome::Bounded { at: step, .. } = relaxation.programme().maximise(&[(unknown, sign)]) else {
                 break;
             };
-            let at = moved(&best.at, &places, &step);
+            let at = moved(&best.at, &step);
             match self.misfit(&at) {
                 Some(misfit) if misfit <= 1.0 => {
                     let gain = sign * (at[unknown] - best.at[unknown]);

@@ -5,7 +5,7 @@ use super::sensitivities::{Block, Variable};
 use super::taylor_step::{Arrival, FlowStep, MOST_LENGTH, TooLong};
 use super::vector_field::{FORCE, FieldTerm, Fields, StateBox, StatePair, VELOCITY, VectorField, changes_sign};
 use super::work::Work;
-use crate::numeric::{Balls, Interval};
+use crate::numeric::{Balls, Interval, Real};
 
 /// The most steps between two changes of the command.
 const MOST_STEPS: usize = 2000;
@@ -115,24 +115,17 @@ fn stride(
 /// An estimate of the time for which the velocity keeps its sign, and `false`; or, where that is nearly over, of the time after which
 /// it has changed it, and `true`.
 fn to_rest(field: &VectorField, state: &StateBox, u: Interval, left: f64) -> (f64, bool) {
-    let [x, v, f] = *state;
-    let rate = |v: Interval| field.rate(&[x, v, f], u)[VELOCITY];
-    let now = rate(v);
-    let (first, last) = (now.midpoint(), rate(Interval::ZERO).midpoint());
-    // With a rate linear in the velocity the time is v over the logarithmic mean of the rates at both ends.
-    let ratio = first / last;
-    let mean = if ratio > 0.0 && (ratio - 1.0).abs() > 1e-3 { (first - last) / libm::log(ratio) } else { first };
-    let acceleration = mean.abs().max(f64::MIN_POSITIVE);
-    let spread = 1.0 + now.radius() / first.abs().max(f64::MIN_POSITIVE);
-    let (slow, fast) = if v.lower() > 0.0 {
-        (v.lower(), v.upper())
-    } else if v.upper() < 0.0 {
-        (-v.upper(), -v.lower())
-    } else if mean < 0.0 {
-        (0.0, v.upper())
+    let (v, rate) = (state[VELOCITY], field.rate(state, u)[VELOCITY]);
+    let acceleration = rate.midpoint().abs().max(f64::MIN_POSITIVE);
+    let spread = 1.0 + rate.radius() / acceleration;
+    let fast = if v.lower() > 0.0 || v.upper() < 0.0 {
+        v.magnitude()
+    } else if rate.midpoint() < 0.0 {
+        v.upper()
     } else {
-        (0.0, -v.lower())
+        -v.lower()
     };
+    let slow = v.abs().lower();
     let (near, far) = (slow / (acceleration * spread), fast * spread / acceleration);
     if near > 1e-7 * left && near > 0.1 * (far - near) {
         return (0.98 * near, false);
@@ -214,14 +207,13 @@ impl FlowEnclosure<'_> {
         Some(())
     }
 
-    /// For the duration `h`, the command constant unless it is `uncertain`; notes those samples on the way, `ahead` from here, that are
-    /// used.
+    /// For the duration `h`, the command constant unless it is `uncertain`; notes the samples on the way, `ahead` from here.
     fn advance(
         &mut self,
         [u, u_at]: [Interval; 2],
         h: Interval,
         uncertain: bool,
-        mut ahead: &[(Interval, bool)],
+        mut ahead: &[Interval],
     ) -> Option<()> {
         let fields = self.input.fields;
         if !self.lagged() {
@@ -244,7 +236,7 @@ impl FlowEnclosure<'_> {
                 }
                 None => {
                     // The point moves by itself, and is known at the end of the step alone: the step ends with a sample.
-                    if let Some((sample, _)) = ahead.first() {
+                    if let Some(sample) = ahead.first() {
                         let until = *sample - gone;
                         if until.lower() > 0.0 && until.upper() < part.lower() {
                             part = until;
@@ -259,10 +251,9 @@ impl FlowEnclosure<'_> {
             let own = [step.within[VELOCITY], acceleration].map(|range| range.magnitude());
             self.fastest = core::array::from_fn(|k| self.fastest[k].max(own[k]));
             let last = part == left;
-            let reached =
-                ahead.iter().take_while(|(sample, _)| last || (*sample - gone).upper() <= part.upper()).count();
+            let reached = ahead.iter().take_while(|sample| last || (**sample - gone).upper() <= part.upper()).count();
             let (within, beyond) = ahead.split_at(reached);
-            for (sample, _) in within.iter().filter(|(_, used)| *used) {
+            for sample in within {
                 let time = *sample - gone;
                 let arrival = step.at(time);
                 let columns = self.carried(&arrival);
@@ -307,31 +298,30 @@ impl FlowEnclosure<'_> {
 
 /// Switchings in their order: how many have certainly happened, and how many may have.
 struct Passed {
-    windows: Vec<(f64, f64)>,
+    windows: Vec<Interval>,
     done: usize,
     begun: usize,
 }
 
 impl Passed {
-    fn at(windows: Vec<(f64, f64)>, time: f64) -> Self {
-        let done = windows.iter().take_while(|(_, last)| *last <= time).count();
-        let begun = windows.iter().take_while(|(first, _)| *first <= time).count();
+    fn at(windows: Vec<Interval>, time: f64) -> Self {
+        let done = windows.iter().take_while(|window| window.upper() <= time).count();
+        let begun = windows.iter().take_while(|window| window.lower() <= time).count();
         Self { windows, done, begun }
     }
     fn next_end(&self) -> f64 {
-        self.windows.get(self.done).map_or(f64::INFINITY, |window| window.1)
+        self.windows.get(self.done).map_or(f64::INFINITY, |window| window.upper())
     }
     fn next_begin(&self) -> f64 {
-        self.windows.get(self.begun).map_or(f64::INFINITY, |window| window.0)
+        self.windows.get(self.begun).map_or(f64::INFINITY, |window| window.lower())
     }
 }
 
-/// The motion at those of the `times` that are used, the first among them, where it starts; with sensitivities by
-/// variables, and their deviations from the point. `None` where it cannot be enclosed.
+/// The motion at the `times`, at the first of which it starts; with sensitivities by variables, and their deviations from the point. `None` where it cannot be enclosed.
 pub(super) fn follow(
     input: &DelayedCommand<'_>,
     start: StatePair,
-    times: &[(f64, bool)],
+    times: &[f64],
     variables: &[Variable],
     deviations: &[Interval],
 ) -> Option<Vec<SampleEnclosure>> {
@@ -347,15 +337,11 @@ pub(super) fn follow(
         fastest,
         nodes: Vec::new(),
     };
-    let (begin, end) = (times.first()?.0, times.last()?.0);
+    let (begin, end) = (*times.first()?, *times.last()?);
     let command = input.command;
     // The point's own switchings, of which rounding alone is uncertain, are inside those over the box.
-    let own: Vec<_> =
-        (0..command.edges()).map(|edge| input.command_at.window(edge, Interval::point(input.delay_at_s))).collect();
-    let windows = (0..command.edges()).map(|edge| {
-        let (first, last) = command.window(edge, input.delay_s);
-        (first.min(own[edge].0), last.max(own[edge].1))
-    });
+    let own: Vec<_> = input.command_at.windows(Interval::point(input.delay_at_s)).collect();
+    let windows = command.windows(input.delay_s).zip(&own).map(|(window, own)| window.hull(*own));
     let (mut over, mut at) = (Passed::at(windows.collect(), begin), Passed::at(own, begin));
     let fresh = flow.unit_impulse();
     for edge in over.done..over.begun {
@@ -369,10 +355,9 @@ pub(super) fn follow(
         let changes = [over.next_end(), over.next_begin(), at.next_end(), at.next_begin()];
         let until = changes.into_iter().fold(end, f64::min);
         if until > now {
-            let to = from + times[from..].partition_point(|(time, _)| *time <= until);
-            let ahead: Vec<(Interval, bool)> = (times[from..to].iter())
-                .map(|(time, used)| (Interval::point(*time) - Interval::point(now), *used))
-                .collect();
+            let to = from + times[from..].partition_point(|time| *time <= until);
+            let ahead: Vec<Interval> =
+                times[from..to].iter().map(|time| Interval::point(*time) - Interval::point(now)).collect();
             from = to;
             let commands = [command.between(over.done, over.begun), input.command_at.between(at.done, at.begun)];
             let uncertain = over.begun > over.done || at.begun > at.done || at.done != over.done;
@@ -393,8 +378,7 @@ pub(super) fn follow(
             break;
         }
     }
-    let used = times[1..].iter().filter(|(_, used)| *used).count();
-    (flow.nodes.len() == 1 + used).then_some(flow.nodes)
+    (flow.nodes.len() == times.len()).then_some(flow.nodes)
 }
 
 // Moving a switching later by z subtracts its jump during z: an impulse at the switching of the size `gain (u_before - u_after) z`, which

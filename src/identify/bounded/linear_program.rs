@@ -3,9 +3,6 @@
 
 mod dual_simplex;
 mod safe_bound;
-#[cfg(test)]
-mod tests;
-mod vertex;
 
-pub(super) use dual_simplex::{Outcome, Programme};
-pub(super) use safe_bound::{Inequalities, Multipliers};
+pub use dual_simplex::{Outcome, Programme};
+pub use safe_bound::{Inequalities, Multipliers};

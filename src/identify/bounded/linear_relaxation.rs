@@ -1,14 +1,12 @@
 //! The readings over a box as linear inequalities, by multiple shooting: of every shooting interval the mean value form of the output at
 //! each sample, and the link of its end to the beginning of the next.
 
-use std::collections::BTreeSet;
-
 use serde::{Deserialize, Serialize};
 
 use super::flow::{DelayedCommand, SampleEnclosure, follow};
 use super::linear_program::{Inequalities, Multipliers, Outcome, Programme};
 use super::problem::Problem;
-use super::record::Readings;
+use super::record::{Command, Readings};
 use super::vector_field::{FieldTerm, Fields, StatePair};
 use super::work::Work;
 use crate::numeric::Interval;
@@ -73,50 +71,31 @@ pub(super) fn points(values: &[f64]) -> Vec<Interval> {
 }
 
 impl Problem {
-    /// Samples of a span, and whether they are used as constraints; its ends always are.
-    fn all_samples(&self, span: Span) -> impl Iterator<Item = (usize, bool)> + '_ {
-        let (first, last) = (self.unknowns.shooting[span.from], self.unknowns.shooting[span.to - 1].last);
-        let used = self.used.as_ref().map(|used| &used[first.record]);
-        (first.first..=last).map(move |sample| {
-            let end = sample == first.first || sample == last;
-            (sample, end || used.is_none_or(|used| used.contains(&sample)))
+    /// Samples of a span.
+    fn samples(&self, span: Span) -> core::ops::RangeInclusive<usize> {
+        self.unknowns.shooting[span.from].first..=self.unknowns.shooting[span.to - 1].last
+    }
+
+    fn times(&self, span: Span) -> &[f64] {
+        &self.records[self.unknowns.shooting[span.from].record].time_s[self.samples(span)]
+    }
+
+    /// Whole records, a span each: single shooting.
+    pub(super) fn single_shooting(&self) -> impl Iterator<Item = Span> + '_ {
+        (0..self.unknowns.records()).map(|record| {
+            let from = self.unknowns.first(record);
+            Span { from, to: from + self.unknowns.intervals(record) }
         })
-    }
-
-    pub(super) fn samples(&self, span: Span) -> Vec<usize> {
-        self.all_samples(span).filter(|(_, used)| *used).map(|(sample, _)| sample).collect()
-    }
-
-    fn times(&self, span: Span) -> Vec<(f64, bool)> {
-        let time_s = &self.records[self.unknowns.shooting[span.from].record].time_s;
-        self.all_samples(span).map(|(sample, used)| (time_s[sample], used)).collect()
-    }
-
-    /// Records as far as they are followed, a span each: single shooting.
-    pub(super) fn single_shooting(&self) -> Vec<Span> {
-        let mut spans: Vec<Span> = Vec::new();
-        for (index, interval) in self.followed() {
-            match spans.last_mut() {
-                Some(span) if self.unknowns.shooting[span.from].record == interval.record => span.to = index + 1,
-                _ => spans.push(Span::single(index)),
-            }
-        }
-        spans
-    }
-
-    /// Shooting intervals that are followed, a span each: multiple shooting.
-    pub(super) fn multiple_shooting(&self) -> Vec<Span> {
-        self.followed().map(|(index, _)| Span::single(index)).collect()
     }
 
     /// The motion over a span at its samples over a box, with sensitivities about `centre`. `None` where it cannot be enclosed.
     pub(super) fn motion(&self, span: Span, at: &[Interval], centre: &[f64]) -> Option<Vec<SampleEnclosure>> {
-        self.follow(span, at, centre, true, &self.times(span))
+        self.follow(span, at, centre, true, self.times(span))
     }
 
     /// The outputs of a point over a span.
     pub(super) fn outputs(&self, span: Span, point: &[f64]) -> Option<Vec<Interval>> {
-        let motion = self.follow(span, &points(point), point, false, &self.times(span))?;
+        let motion = self.follow(span, &points(point), point, false, self.times(span))?;
         Some(motion.iter().map(|node| node.at[0]).collect())
     }
 
@@ -126,23 +105,22 @@ impl Problem {
     /// instant between two of `[t - J, t + J]`, not above y + E at either end and not below y - E at the opposite end.
     pub(super) fn misfit(&self, span: Span, point: &[f64]) -> Option<f64> {
         let Readings { time_s, value, error, jitter_s, .. } = &self.records[self.unknowns.shooting[span.from].record];
-        let (samples, mut times) = (self.samples(span), self.times(span));
+        let mut times = self.times(span).to_vec();
         let near = |stamp: f64| {
             let [from, to] = [-*jitter_s, *jitter_s].map(|stray| Interval::point(stamp) + Interval::point(stray));
             [from.upper(), to.lower()]
         };
         if *jitter_s > 0.0 {
-            let (begin, end) = (times.first()?.0, times.last()?.0);
-            let ends = samples.iter().flat_map(|sample| near(time_s[*sample])).filter(|end| *end > begin);
-            times.extend(ends.filter(|time| *time < end).map(|time| (time, true)).collect::<Vec<_>>());
-            times.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let (begin, end) = (*times.first()?, *times.last()?);
+            let ends = self.times(span).iter().flat_map(|stamp| near(*stamp));
+            times.extend(ends.filter(|time| begin < *time && *time < end));
+            times.sort_by(f64::total_cmp);
         }
         let motion = self.follow(span, &points(point), point, false, &times)?;
-        let used: Vec<f64> = times.iter().filter(|(_, used)| *used).map(|(time, _)| *time).collect();
-        Some(samples.iter().fold(0.0, |largest, sample| {
-            let [from, to] = near(time_s[*sample]);
-            let within = used.partition_point(|time| *time < from)..used.partition_point(|time| *time <= to);
-            let off = motion[within].iter().map(|node| node.at[0] - Interval::point(value[*sample]));
+        Some(self.samples(span).fold(0.0, |largest, sample| {
+            let [from, to] = near(time_s[sample]);
+            let within = times.partition_point(|time| *time < from)..times.partition_point(|time| *time <= to);
+            let off = motion[within].iter().map(|node| node.at[0] - Interval::point(value[sample]));
             let (above, below) = off.fold((f64::INFINITY, f64::NEG_INFINITY), |(above, below), off| {
                 (above.min(off.upper()), below.max(off.lower()))
             });
@@ -156,14 +134,14 @@ impl Problem {
         at: &[Interval],
         centre: &[f64],
         with_sensitivities: bool,
-        times: &[(f64, bool)],
+        times: &[f64],
     ) -> Option<Vec<SampleEnclosure>> {
         let (record, unknowns) = (self.unknowns.shooting[span.from].record, &self.unknowns);
         let (readings, point) = (&self.records[record], points(centre));
         let instants = unknowns.instants(record);
         let command = |at: &[Interval]| {
-            let spans = (0..instants).map(|edge| at[unknowns.instant(record, edge)]);
-            (instants > 0).then(|| readings.command.with_spans(spans))
+            let spans = (0..instants).map(|edge| at[unknowns.instant(record, edge)]).collect();
+            (instants > 0).then(|| Command { spans, ..readings.command.clone() })
         };
         let (over, middle) = (command(at), command(&point));
         let input = DelayedCommand {
@@ -188,19 +166,18 @@ impl Problem {
 
     /// The largest distance of the output at a sample from its reading: `E + J min(V, |v| + A J)` for a stamp that is off by at most J, with
     /// V and A the largest speed and acceleration near the stamp; beyond the ends of the motion `E + J` times the largest speed searched.
-    fn allowed(&self, record: usize, motion: &[SampleEnclosure], samples: &[usize], offset: usize) -> Interval {
-        let Readings { time_s, error, jitter_s, .. } = &self.records[record];
+    fn allowed(&self, record: usize, motion: &[SampleEnclosure], times: &[f64], offset: usize) -> Interval {
+        let Readings { error, jitter_s, .. } = &self.records[record];
         let (error, jitter) = (Interval::point(*error), Interval::point(*jitter_s));
         if *jitter_s <= 0.0 {
             return error;
         }
-        let stamp = |offset: usize| time_s[samples[offset]];
-        let [from, to] = [-jitter, jitter].map(|stray| Interval::point(stamp(offset)) + stray);
-        let (from, to, last) = (from.lower(), to.upper(), samples.len() - 1);
-        if from < stamp(0) || to > stamp(last) {
+        let [from, to] = [-jitter, jitter].map(|stray| Interval::point(times[offset]) + stray);
+        let (from, to, last) = (from.lower(), to.upper(), times.len() - 1);
+        if from < times[0] || to > times[last] {
             return error + jitter * Interval::point(self.fastest);
         }
-        let near = (1..=last).filter(|next| stamp(*next) > from && stamp(next - 1) < to);
+        let near = (1..=last).filter(|next| times[*next] > from && times[next - 1] < to);
         let [speed, rate] =
             near.fold([0.0f64; 2], |most, next| core::array::from_fn(|k| most[k].max(motion[next].fastest[k])));
         let here = Interval::point(motion[offset].over[1].magnitude()) + Interval::point(rate) * jitter;
@@ -236,13 +213,13 @@ impl Problem {
     pub(super) fn add_motion(&self, span: Span, motion: &[SampleEnclosure], linked: bool, relaxation: &mut Relaxation) {
         let (_, places) = self.unknowns.variables(span.from);
         let record = self.unknowns.shooting[span.from].record;
-        let (readings, samples) = (&self.records[record], self.samples(span));
+        let readings = &self.records[record];
         let by = |node: &SampleEnclosure, component: usize| {
             let own = node.sensitivities.iter().map(move |own| own[component]);
             places.iter().copied().zip(own.collect::<Vec<_>>())
         };
-        for (offset, (node, &sample)) in motion.iter().zip(&samples).enumerate() {
-            let error = self.allowed(record, motion, &samples, offset);
+        for (offset, (node, sample)) in motion.iter().zip(self.samples(span)).enumerate() {
+            let error = self.allowed(record, motion, self.times(span), offset);
             let residual = node.at[0] - Interval::point(readings.value[sample]);
             let origin = |above| Origin::Reading { interval: span.from, sample, above };
             relaxation.add_pair(by(node, 0), residual, error, origin);
@@ -263,7 +240,8 @@ impl Problem {
     /// intersection: the mean value form is wide about a far centre. `None` where there is no enclosure.
     pub(super) fn shoot(&self, at: &mut [Interval], centre: Vec<f64>) -> Result<Option<Relaxation>, Disjoint> {
         let mut relaxation = self.about(at, centre);
-        for span in self.multiple_shooting() {
+        for (index, _) in self.followed() {
+            let span = Span::single(index);
             let Some(motion) = self.motion(span, at, &relaxation.centre) else { return Ok(None) };
             let record = |interval: usize| self.unknowns.shooting.get(interval).map(|own| own.record);
             let linked = record(span.to) == record(span.from) && self.followed().any(|(own, _)| own == span.to);
@@ -345,15 +323,8 @@ impl Relaxation {
         near
     }
 
-    /// The unknowns that the inequalities have.
-    pub(super) fn places(&self) -> Vec<usize> {
-        let places: BTreeSet<usize> =
-            self.inequalities.coefficients.iter().flatten().map(|(place, _)| *place).collect();
-        places.into_iter().collect()
-    }
-
-    pub(super) fn programme(&self, places: &[usize]) -> Programme {
-        Programme::of(&self.inequalities, &self.deviations, places, &self.work)
+    pub(super) fn programme(&self) -> Programme {
+        Programme::of(&self.inequalities, &self.deviations, &self.work)
     }
 
     /// The safe bound of an objective; with objective zero, of a contradiction.
@@ -363,7 +334,7 @@ impl Relaxation {
 
     /// Bounds the `unknowns` of a box, by a linear programme for each end of each. `Err` with multipliers that prove it empty.
     pub(super) fn contract(&self, at: &mut [Interval], unknowns: &[usize]) -> Result<(), Multipliers> {
-        let programme = self.programme(&self.places());
+        let programme = self.programme();
         for &unknown in unknowns {
             for sign in [1.0, -1.0] {
                 let objective = [(unknown, sign)];
@@ -391,7 +362,7 @@ impl Relaxation {
 
     /// The range of a combination of unknowns, `sum_j c_j theta_j`. `None` where the inequalities have no solution.
     pub(super) fn combination(&self, parts: &[(usize, f64)]) -> Option<Interval> {
-        let programme = self.programme(&self.places());
+        let programme = self.programme();
         let end = |sign: f64| {
             let objective: Vec<(usize, f64)> = parts.iter().map(|(place, weight)| (*place, sign * weight)).collect();
             match programme.maximise(&objective) {

@@ -16,7 +16,6 @@ mod branch_and_prune;
 mod contraction;
 mod feasible_point;
 mod flow;
-mod linear_program;
 mod linear_relaxation;
 mod modulating_functions;
 mod problem;
@@ -36,9 +35,12 @@ mod taylor_step;
 mod unknowns;
 mod vector_field;
 mod velocity_bounds;
-mod work;
 
-internal! { mod certificate; }
+internal! {
+    mod certificate;
+    mod linear_program;
+    mod work;
+}
 
 #[cfg(test)]
 mod tests;

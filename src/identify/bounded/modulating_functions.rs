@@ -200,7 +200,6 @@ impl Problem {
         let mut relaxation = self.about(at, centre);
         for (record, supports) in supports.iter().enumerate() {
             let velocities = self.velocities(record, at)?;
-            self.is_travelled(record, &velocities).then_some(())?;
             for (index, interval) in self.followed().filter(|(_, own)| own.record == record) {
                 let place = self.unknowns.start(index, 1);
                 at[place] = at[place].intersection(velocities.at_samples[interval.first])?;

@@ -1,7 +1,5 @@
 //! The constraint satisfaction problem: records, unknowns, and the box in which they are searched.
 
-use std::collections::BTreeSet;
-
 use super::answer::{Quantity, QuantityRange};
 use super::record::{Command, Readings, Scales};
 use super::settings::{BoundedModel, DelayBound, SwitchedWhen};
@@ -49,8 +47,6 @@ pub(super) struct Problem {
     pub(super) search: Vec<Interval>,
     /// Shooting intervals of each record that are followed, from its first on.
     pub(super) horizon: usize,
-    /// Samples used as constraints, by record; `None` for all.
-    pub(super) used: Option<Vec<BTreeSet<usize>>>,
     pub(super) work: Work,
 }
 
@@ -132,7 +128,7 @@ impl Readings {
                 let remedy = "give a record in which the command changes";
                 return Err(refuse("switchings of the command", 0.0, "", Limit::AtLeast(1.0), remedy));
             }
-            if command.spans().windows(2).any(|pair| pair[0].1 > pair[1].0) {
+            if command.spans.windows(2).any(|pair| pair[0].upper() > pair[1].lower()) {
                 let limit = Limit::Words("at most half the shortest time between two changes of the command");
                 let remedy =
                     "give the largest error that a stamp may have, or a log of a command that changes less often";
@@ -162,9 +158,9 @@ fn divide(record: usize, readings: &Readings, delay: Interval) -> Option<Vec<Sho
     let last = samples - 1;
     let end = readings
         .command
-        .spans()
+        .spans
         .get(FIRST_HORIZON)
-        .map_or(last, |(first, _)| readings.time_s.partition_point(|time| time < first).saturating_sub(1));
+        .map_or(last, |span| readings.time_s.partition_point(|time| *time < span.lower()).saturating_sub(1));
     if edges < 2 * FIRST_HORIZON || end < first + FEWEST_SAMPLES || last < end + FEWEST_SAMPLES {
         return Some(split(first, last, (edges + 1).clamp(2, MOST_INTERVALS)).collect());
     }
@@ -239,7 +235,7 @@ impl Problem {
         for (record, readings) in records.iter().enumerate() {
             // Under a disturbance stronger than the command there is no oscillation.
             search.push(Interval::symmetric(gain * reach * readings.command.largest()));
-            search.extend((0..unknowns.instants(record)).map(|edge| readings.command.span(edge)));
+            search.extend(&readings.command.spans[..unknowns.instants(record)]);
         }
         let problem = Self {
             known_delay_s: delay,
@@ -251,7 +247,6 @@ impl Problem {
             least_linear,
             search: Vec::new(),
             horizon: usize::MAX,
-            used: None,
             work: Work::default(),
             records,
             unknowns,
@@ -280,7 +275,7 @@ impl Problem {
 
     /// Numbers of shooting intervals: the first horizon, then twice as many later ones each time, at last all.
     pub(super) fn horizons(&self) -> Vec<usize> {
-        let all = self.unknowns.most_intervals();
+        let all = (0..self.records.len()).map(|record| self.unknowns.intervals(record)).max().unwrap_or(0);
         let first = FIRST_HORIZON * PER_HALF_PERIOD;
         let doubled = core::iter::successors(Some(FIRST_HORIZON), |later| Some(2 * later));
         let horizons = core::iter::once(first).chain(doubled.map(|later| first + later));

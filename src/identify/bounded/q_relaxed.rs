@@ -249,7 +249,7 @@ impl Relaxed<'_> {
     fn contradicts(&self, suspect: Outlier, pair: Groups, groups: usize, piece: &Left) -> Result<bool, IdentifyError> {
         let Some(at) = &piece.at else { return Ok(true) };
         let problem = self.problem(|place| place == suspect || self.within(pair, groups, place))?.within(at);
-        Ok(Contractor::new(problem.clone()).prune(vec![problem.search], PROOF).kept.is_empty())
+        Ok(Contractor::new(problem.clone()).prune(problem.search, PROOF).kept.is_empty())
     }
 
     /// The answer once no more outliers are found, with a number of them still `allowed`.
@@ -272,9 +272,13 @@ impl Relaxed<'_> {
             let suspects = &fewest[..fewest.len().min(allowed)];
             tried = self.leave(|_, place| !suspects.contains(&place), at, self.settings.budget)?.bounds;
         }
+        // A record's first state differs with each pair, and is omitted.
+        let of_all = |range: &QuantityRange| !matches!(range.quantity, Quantity::Position(_) | Quantity::Velocity(_));
+        let ranges = pieces.iter().flat_map(|(_, piece)| piece.bounds.bounds.iter().copied());
+        let union = QuantityRange::union(ranges.filter(of_all));
         let verdict = if tried.witness.is_some() { Consistency::Consistent } else { Consistency::Undecided };
         let error_factor = [0.0, tried.error_factor[1]];
-        let bounds = Bounds { verdict, bounds: union(&pieces), error_factor, contradicting: Vec::new(), ..tried };
+        let bounds = Bounds { verdict, bounds: union, error_factor, contradicting: Vec::new(), ..tried };
         Ok(self.answer(bounds, whole))
     }
 
@@ -283,17 +287,4 @@ impl Relaxed<'_> {
         let outliers = if bounds.verdict == Consistency::Refuted { Vec::new() } else { self.found };
         Bounds { search_box: whole.ranges(&whole.search), outliers, passes: self.passes, ..bounds }
     }
-}
-
-/// The union over all pairs of each quantity's range; a record's first state differs with each pair, and is omitted.
-fn union(pieces: &[(Groups, Left)]) -> Vec<QuantityRange> {
-    let mut all: Vec<QuantityRange> = Vec::new();
-    for range in pieces.iter().flat_map(|(_, piece)| &piece.bounds.bounds) {
-        match all.iter_mut().find(|own| own.quantity == range.quantity) {
-            _ if matches!(range.quantity, Quantity::Position(_) | Quantity::Velocity(_)) => {}
-            Some(own) => (own.low, own.high) = (own.low.min(range.low), own.high.max(range.high)),
-            None => all.push(*range),
-        }
-    }
-    all
 }

@@ -6,17 +6,13 @@ use crate::numeric::Interval;
 /// A held command: levels, and the range of each instant at which it switches.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Command {
-    levels: Vec<f64>,
-    /// First and last instant of each switching; equal where the instant is certain.
-    spans: Vec<(f64, f64)>,
+    /// The first before any switching.
+    pub(super) levels: Vec<f64>,
+    /// The range of the instant of each switching; a point where it is certain.
+    pub(super) spans: Vec<Interval>,
 }
 
 impl Command {
-    #[cfg(test)]
-    pub(super) fn new(levels: Vec<f64>, spans: Vec<(f64, f64)>) -> Self {
-        Self { levels, spans }
-    }
-
     /// The command of a record: it switches at the sample with the new value, or `anywhere` since the sample before. The stamps of both
     /// are off by at most J: the switching is within `[first - J, last + J]`.
     pub(super) fn of(record: &Record, anywhere: bool, jitter_s: f64) -> Self {
@@ -27,15 +23,10 @@ impl Command {
                 levels.push(input[after]);
                 let first = if anywhere { time[after - 1] } else { time[after] };
                 let span = Interval::point(first).hull(Interval::point(time[after]));
-                let span = if jitter_s > 0.0 { span + Interval::symmetric(jitter_s) } else { span };
-                spans.push((span.lower(), span.upper()));
+                spans.push(if jitter_s > 0.0 { span + Interval::symmetric(jitter_s) } else { span });
             }
         }
         Self { levels, spans }
-    }
-
-    pub(super) fn spans(&self) -> &[(f64, f64)] {
-        &self.spans
     }
 
     /// Number of switchings.
@@ -45,23 +36,12 @@ impl Command {
 
     /// Number of switchings at unknown instants: all, or none.
     pub(super) fn unknown_instants(&self) -> usize {
-        if self.spans.iter().all(|(first, last)| first == last) { 0 } else { self.edges() }
+        if self.spans.iter().all(|span| span.is_point()) { 0 } else { self.edges() }
     }
 
-    pub(super) fn span(&self, edge: usize) -> Interval {
-        let (first, last) = self.spans[edge];
-        Interval::point(first).hull(Interval::point(last))
-    }
-
-    /// The same with new ranges of the instants.
-    pub(super) fn with_spans(&self, spans: impl Iterator<Item = Interval>) -> Self {
-        Self { levels: self.levels.clone(), spans: spans.map(|span| (span.lower(), span.upper())).collect() }
-    }
-
-    /// Earliest and latest instant at which a switching acts on the vehicle.
-    pub(super) fn window(&self, edge: usize, delay_s: Interval) -> (f64, f64) {
-        let window = self.span(edge) + delay_s;
-        (window.lower(), window.upper())
+    /// The instants at which each switching acts on the vehicle.
+    pub(super) fn windows(&self, delay_s: Interval) -> impl Iterator<Item = Interval> {
+        self.spans.iter().map(move |span| *span + delay_s)
     }
 
     /// The range of the levels after `done` switchings to after `begun` ones.
@@ -78,11 +58,6 @@ impl Command {
     /// The largest magnitude.
     pub(super) fn largest(&self) -> f64 {
         self.levels.iter().fold(0.0, |largest, level| largest.max(level.abs()))
-    }
-
-    /// The level before any switching.
-    pub(super) fn first_level(&self) -> f64 {
-        self.levels[0]
     }
 }
 
@@ -104,11 +79,6 @@ impl Readings {
         (Interval::point(self.time_s[0]) + delay_s + Interval::point(self.jitter_s)).upper()
     }
 
-    /// Mean time between two switchings.
-    pub(super) fn half_period_s(&self) -> f64 {
-        (self.time_s[self.time_s.len() - 1] - self.time_s[0]) / (self.command.edges() + 1) as f64
-    }
-
     /// Time between two samples, each stamp off by at most J.
     pub(super) fn lasted(&self, first: usize, last: usize) -> Interval {
         let lasted = Interval::point(self.time_s[last]) - Interval::point(self.time_s[first]);
@@ -127,7 +97,7 @@ impl Readings {
         let (time, value) = (&self.time_s, &self.value);
         let (low, high) = value.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
         let lasted = time[time.len() - 1] - time[0];
-        let half_period_s = self.half_period_s();
+        let half_period_s = lasted / (self.command.edges() + 1) as f64;
         let (mut squares, mut count, mut fastest) = (0.0, 0.0, 0.0f64);
         let mut first = 0;
         for last in 1..time.len() {
@@ -151,6 +121,7 @@ impl Readings {
 pub(super) struct Scales {
     /// Half the range of the output.
     pub(super) amplitude: f64,
+    /// Mean time between two switchings.
     pub(super) half_period_s: f64,
     pub(super) force: f64,
     /// Root mean square of the speed.

@@ -9,7 +9,7 @@ use super::linear_relaxation::{Origin, Relaxation, midpoints};
 use super::problem::Problem;
 use super::refinement::Points;
 use super::vector_field::FieldTerm;
-use crate::numeric::Interval;
+use crate::numeric::{Interval, Real};
 
 /// Drag and spring coefficients over alpha, as the answer has them.
 const OVER_ALPHA: [(FieldTerm, Quantity); 3] = [
@@ -38,13 +38,7 @@ pub(super) fn answer(wide: &Problem, contractor: &Contractor, division: &Divisio
         least =
             kept.iter().fold(least, |least, (_, relaxation)| least.min(least_misfit(contractor, relaxation.as_ref())));
     }
-    let ranges = kept.iter().map(|(at, relaxation)| box_ranges(&contractor.problem, at, relaxation.as_ref()));
-    let union = |mut all: Vec<QuantityRange>, own: Vec<QuantityRange>| {
-        for (all, own) in all.iter_mut().zip(own) {
-            (all.low, all.high) = (all.low.min(own.low), all.high.max(own.high));
-        }
-        all
-    };
+    let ranges = kept.iter().flat_map(|(at, relaxation)| box_ranges(&contractor.problem, at, relaxation.as_ref()));
     let point = |point: &ParameterPoint| ParameterValues {
         values: values(&contractor.problem, &point.at),
         misfit: point.misfit,
@@ -52,7 +46,7 @@ pub(super) fn answer(wide: &Problem, contractor: &Contractor, division: &Divisio
     Bounds {
         verdict,
         search_box: wide.ranges(&wide.search),
-        bounds: ranges.reduce(union).unwrap_or_default(),
+        bounds: QuantityRange::union(ranges),
         witness: tried.feasible().map(point),
         nearest: tried.nearest.as_ref().map(point),
         error: contractor.problem.records.iter().map(|readings| readings.error).collect(),
@@ -84,57 +78,55 @@ fn contradiction(problem: &Problem, empty: &Empty) -> Vec<Contradicting> {
     found
 }
 
+/// The quantities of the answer at a point or over a box, given a reciprocal and a combination of unknowns over the gain.
+fn quantities<T: Copy>(
+    problem: &Problem,
+    at: &[T],
+    known_delay_s: T,
+    reciprocal: impl Fn(T) -> T,
+    over_gain: impl Fn(&[(usize, f64)]) -> T,
+) -> Vec<(Quantity, T)> {
+    let unknowns = &problem.unknowns;
+    let place = |term| unknowns.place_of(term);
+    let mut all = vec![(Quantity::Alpha, reciprocal(at[0]))];
+    if let Some(linear) = place(FieldTerm::Linear) {
+        let quadratic = place(FieldTerm::Quadratic).map(|quadratic| (quadratic, -2.0 * problem.middle_speed));
+        let parts: Vec<(usize, f64)> = [(linear, 1.0)].into_iter().chain(quadratic).collect();
+        all.push((Quantity::Beta, over_gain(&parts)));
+    }
+    let over_alpha = |(term, quantity)| Some((quantity, over_gain(&[(place(term)?, 1.0)])));
+    all.extend(OVER_ALPHA.into_iter().filter_map(over_alpha));
+    all.extend(place(FieldTerm::LagRate).map(|rate| (Quantity::LagS, reciprocal(at[rate]))));
+    all.push((Quantity::DelayS, unknowns.delay().map_or(known_delay_s, |delay| at[delay])));
+    let records = 0..unknowns.records();
+    all.extend(
+        records.clone().map(|record| (Quantity::Delta(record), over_gain(&[(unknowns.disturbance(record), 1.0)]))),
+    );
+    for record in records {
+        let first = unknowns.first(record);
+        all.push((Quantity::Position(record), at[unknowns.start(first, 0)]));
+        all.push((Quantity::Velocity(record), at[unknowns.start(first, 1)]));
+    }
+    all
+}
+
 /// The quantities of a point.
 fn values(problem: &Problem, at: &[f64]) -> Vec<(Quantity, f64)> {
-    let unknowns = &problem.unknowns;
-    let of = |term| unknowns.place_of(term).map(|place| at[place]);
-    let gain = at[0];
-    let mut values = vec![(Quantity::Alpha, 1.0 / gain)];
-    if let Some(linear) = of(FieldTerm::Linear) {
-        let share = 2.0 * problem.middle_speed * of(FieldTerm::Quadratic).unwrap_or(0.0);
-        values.push((Quantity::Beta, (linear - share) / gain));
-    }
-    values.extend(OVER_ALPHA.into_iter().filter_map(|(term, quantity)| Some((quantity, of(term)? / gain))));
-    values.extend(of(FieldTerm::LagRate).map(|rate| (Quantity::LagS, 1.0 / rate)));
-    values.push((Quantity::DelayS, unknowns.delay().map_or(problem.known_delay_s.midpoint(), |place| at[place])));
-    for record in 0..unknowns.records() {
-        let first = unknowns.first(record);
-        values.push((Quantity::Delta(record), at[unknowns.disturbance(record)] / gain));
-        values.push((Quantity::Position(record), at[unknowns.start(first, 0)]));
-        values.push((Quantity::Velocity(record), at[unknowns.start(first, 1)]));
-    }
-    values
+    let over_gain =
+        |parts: &[(usize, f64)]| parts.iter().map(|(place, factor)| factor * at[*place]).sum::<f64>() / at[0];
+    quantities(problem, at, problem.known_delay_s.midpoint(), |value| 1.0 / value, over_gain)
 }
 
 /// The quantities over a remaining box.
 fn box_ranges(problem: &Problem, at: &[Interval], relaxation: Option<&Relaxation>) -> Vec<QuantityRange> {
-    let (unknowns, gain) = (&problem.unknowns, at[0]);
-    let ratio = |parts: &[(usize, f64)]| over_gain(at, relaxation, parts);
-    let mut ranges = vec![(Quantity::Alpha, Interval::ONE / gain)];
-    if let Some(place) = unknowns.place_of(FieldTerm::Linear) {
-        let quadratic =
-            unknowns.place_of(FieldTerm::Quadratic).map(|quadratic| (quadratic, -2.0 * problem.middle_speed));
-        let parts: Vec<(usize, f64)> = [(place, 1.0)].into_iter().chain(quadratic).collect();
-        let mut side = ratio(&parts);
-        if problem.least_linear >= 0.0 {
-            // Negative linear drag is not searched.
-            side = Interval::new(side.lower().max(0.0), side.upper().max(0.0)).unwrap_or(side);
-        }
-        ranges.push((Quantity::Beta, side));
+    let over_gain = |parts: &[(usize, f64)]| over_gain(at, relaxation, parts);
+    let mut all = quantities(problem, at, problem.known_delay_s, |side| Interval::ONE / side, over_gain);
+    if problem.least_linear >= 0.0 {
+        // Negative linear drag is not searched.
+        let beta = all.iter_mut().filter(|(quantity, _)| *quantity == Quantity::Beta);
+        beta.for_each(|(_, side)| *side = side.max(Interval::ZERO));
     }
-    let over_alpha = |(term, quantity)| Some((quantity, ratio(&[(unknowns.place_of(term)?, 1.0)])));
-    ranges.extend(OVER_ALPHA.into_iter().filter_map(over_alpha));
-    ranges.extend(unknowns.place_of(FieldTerm::LagRate).map(|place| (Quantity::LagS, Interval::ONE / at[place])));
-    ranges.push((Quantity::DelayS, problem.delay_s(at)));
-    let records = 0..unknowns.records();
-    ranges
-        .extend(records.clone().map(|record| (Quantity::Delta(record), ratio(&[(unknowns.disturbance(record), 1.0)]))));
-    for record in records {
-        let first = unknowns.first(record);
-        ranges.push((Quantity::Position(record), at[unknowns.start(first, 0)]));
-        ranges.push((Quantity::Velocity(record), at[unknowns.start(first, 1)]));
-    }
-    ranges.into_iter().map(QuantityRange::of).collect()
+    all.into_iter().map(QuantityRange::of).collect()
 }
 
 /// A combination c of parameters over the gain g: by both ranges; and as `m + (c - m g)/g` with the middle ratio m, where the inequalities
@@ -155,7 +147,7 @@ fn least_misfit(contractor: &Contractor, relaxation: Option<&Relaxation>) -> f64
     let excess = contractor.add_excess(&mut relaxation);
     relaxation.deviations[excess] = Interval::new(-1.0, 1.0).unwrap_or(Interval::ENTIRE);
     let objective = [(excess, -1.0)];
-    match relaxation.programme(&relaxation.places()).maximise(&objective) {
+    match relaxation.programme().maximise(&objective) {
         Outcome::Bounded { multipliers, .. } => {
             (Interval::ONE - Interval::point(relaxation.upper_bound(&objective, &multipliers))).lower().max(0.0)
         }

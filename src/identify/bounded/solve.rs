@@ -69,17 +69,21 @@ pub(super) fn solve(
 
 /// Branch and prune over each horizon, from the hull of the remainder before.
 fn prune(problem: &Problem, budget: usize) -> (Contractor, Division) {
-    let mut boxes = vec![problem.search.clone()];
+    let mut whole = problem.search.clone();
     let mut contradicting = Vec::new();
     let mut horizons = problem.horizons().into_iter().peekable();
     loop {
         let horizon = horizons.next().unwrap_or(usize::MAX);
         let mut contractor = Contractor::new(problem.until(horizon));
-        let division = contractor.prune(boxes, budget);
+        let division = contractor.prune(whole, budget);
         contradicting.extend(contractor.contradicting);
         match division.hull() {
-            Some(hull) if horizons.peek().is_some() => boxes = vec![hull],
-            _ => return (Contractor::new(problem.clone()).with_contradicting(contradicting), division),
+            Some(hull) if horizons.peek().is_some() => whole = hull,
+            _ => {
+                let mut contractor = Contractor::new(problem.clone());
+                contractor.contradicting = contradicting;
+                return (contractor, division);
+            }
         }
     }
 }

@@ -168,8 +168,7 @@ impl Fields {
                 VELOCITY => field.rate_of(VELOCITY, &[within[POSITION], state[VELOCITY], within[FORCE]], u),
                 _ => Interval::ZERO,
             };
-            let passed = field.passed_damped(&start, u, h).or_else(|| enclose(&start, h, rate))?;
-            Some(rate(VELOCITY, &passed))
+            Some(rate(VELOCITY, &enclose(&start, h, rate)?))
         };
         let v = start[VELOCITY];
         let (slow, fast) = (rate_from(v.lower())?.lower(), rate_from(v.upper())?.upper());

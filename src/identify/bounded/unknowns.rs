@@ -73,10 +73,9 @@ impl Unknowns {
         self.shooting.iter().position(|own| own.record == record).unwrap_or(0)
     }
 
-    /// The largest number of shooting intervals of one record.
-    pub(super) fn most_intervals(&self) -> usize {
-        let of = |record| self.shooting.iter().filter(|own| own.record == record).count();
-        (0..self.records()).map(of).max().unwrap_or(0)
+    /// The number of shooting intervals of a record.
+    pub(super) fn intervals(&self, record: usize) -> usize {
+        self.shooting.iter().filter(|own| own.record == record).count()
     }
 
     /// Parameters, and the state at the beginning of each record.

@@ -14,7 +14,7 @@ use monotone::{Constant, SPANS};
 
 /// Trial decreases of a velocity, each twice the one before.
 const DOUBLINGS: usize = 6;
-/// Iterations of the implicit Euler step.
+/// Refinements of a decrease.
 const ITERATIONS: usize = 3;
 
 /// The acceleration without drag between two samples.
@@ -27,15 +27,6 @@ struct Push {
     /// Switchings that have acted, if none can act in between.
     since: Option<usize>,
 }
-
-impl Push {
-    /// The largest increase and decrease of a velocity in a duration.
-    fn gains(self, lasted: Interval) -> [f64; 2] {
-        [self.up, self.down].map(|push| (Interval::point(push) * Interval::point(lasted.upper())).upper())
-    }
-}
-
-const NONE: Push = Push { up: 0.0, down: 0.0, force: Interval::ZERO, since: None };
 
 /// Velocities at the samples, and between each sample and the next.
 #[derive(Clone, Debug)]
@@ -70,25 +61,8 @@ fn constant_spans(pushes: &[Push]) -> Vec<Constant> {
     spans
 }
 
-fn below(end: f64) -> Interval {
-    half_line(end, true)
-}
-fn above(end: f64) -> Interval {
-    half_line(end, false)
-}
 fn plus(a: f64, b: f64) -> Interval {
     Interval::point(a) + Interval::point(b)
-}
-
-/// The velocity between two samples: forwards at most `max(v_1, 0) + A t`, and at least `v_2 - A t` where that is positive; drag may brake it
-/// at once.
-fn between(first: Interval, second: Interval, push: Push, lasted: Interval) -> Interval {
-    let [up, down] = push.gains(lasted);
-    let ahead = plus(second.lower(), -up).lower();
-    let lower = if ahead > 0.0 { ahead } else { plus(first.lower().min(0.0), -down).lower() };
-    let behind = plus(second.upper(), down).upper();
-    let upper = if behind < 0.0 { behind } else { plus(first.upper().max(0.0), up).upper() };
-    Interval::new(lower, upper).unwrap_or(Interval::ENTIRE)
 }
 
 /// A force behind a lag after so many time constants: `u + (f - u) e^(-t/T)` for the ends of both ranges.
@@ -109,43 +83,36 @@ impl Drag {
         (force - linear * v - quadratic * signed_square(v) - cubic * v * v.square()).lower()
     }
 
-    /// The least velocity during a duration from `v`.
-    fn least_within(&self, v: f64, force: Interval, lasted: Interval) -> f64 {
-        if self.rate(Interval::point(v), force) >= 0.0 { v } else { self.least(v, force, lasted) }
+    /// The velocities during a time of at most `lasted` from any of some. Drag is odd: the largest is the least of the motion turned round.
+    fn passed(&self, v: Interval, force: Interval, lasted: Interval) -> Interval {
+        let (least, largest) = (self.least(v.lower(), force, lasted), -self.least(-v.upper(), -force, lasted));
+        Interval::new(least, largest).unwrap_or(Interval::ENTIRE)
     }
 
-    /// A lower bound of the velocity after a duration from `v`.
+    /// A lower bound of the velocity during a time of at most `lasted` from `v`.
     fn least(&self, v: f64, force: Interval, lasted: Interval) -> f64 {
         if !v.is_finite() {
             return f64::NEG_INFINITY;
         }
-        // The least gain while the velocity is between v and `end`.
-        let gained = |end: f64, lasted: f64| {
-            let between = Interval::point(v).hull(Interval::point(end));
-            Interval::point(self.rate(between, force)) * Interval::point(lasted)
+        if self.rate(Interval::point(v), force) >= 0.0 {
+            return v;
+        }
+        // The least velocity after the whole time while it is between v and `end`.
+        let after = |end: f64| {
+            let rate = self.rate(Interval::point(v).hull(Interval::point(end)), force);
+            (Interval::point(v) + Interval::point(rate) * Interval::point(lasted.upper())).lower()
         };
-        let after = |end: f64, lasted: f64| (Interval::point(v) + gained(end, lasted)).lower();
-        let (soon, late) = (lasted.lower(), lasted.upper());
-        if self.rate(Interval::point(v), force) < 0.0 {
-            // f is not passed: the fall on the way there takes longer, or at f the velocity rises.
-            let holds = |f: f64| after(f, late) >= f || self.rate(Interval::point(f), force) >= 0.0;
-            let furthest = gained(v, late).lower();
-            let Some(mut sure) = (0..DOUBLINGS).map(|k| v + f64::from(1 << k) * furthest).find(|f| holds(*f)) else {
-                return f64::NEG_INFINITY;
-            };
-            // The fall is no faster than between v and a velocity that is not passed.
-            for _ in 0..ITERATIONS {
-                sure = sure.max(after(sure, late).min(v));
-            }
-            return sure;
-        }
-        // Implicit Euler: m is reached if the least gain between v and m is at least m - v. Iterates alternate about the solution.
-        let (mut sure, mut beyond) = (v, (Interval::point(v) + gained(v, soon)).upper());
+        // f is not passed: the fall on the way there takes longer, or at f the velocity rises.
+        let holds = |f: f64| after(f) >= f || self.rate(Interval::point(f), force) >= 0.0;
+        let furthest = after(v) - v;
+        let Some(mut sure) = (0..DOUBLINGS).map(|k| v + f64::from(1 << k) * furthest).find(|f| holds(*f)) else {
+            return f64::NEG_INFINITY;
+        };
+        // The fall is no faster than between v and a velocity that is not passed.
         for _ in 0..ITERATIONS {
-            sure = after(beyond, soon);
-            beyond = after(sure.max(v), soon);
+            sure = sure.max(after(sure).min(v));
         }
-        if plus(sure, -v).upper() <= gained(sure, soon).lower() { sure.max(v) } else { v }
+        sure
     }
 }
 
@@ -154,7 +121,7 @@ impl Problem {
     fn drag(&self, at: &[Interval]) -> Drag {
         let linear =
             if self.unknowns.place_of(FieldTerm::Linear).is_some() { self.linear_drag(at) } else { Interval::ZERO };
-        let linear = linear.intersection(above(self.least_linear)).unwrap_or(linear);
+        let linear = linear.intersection(half_line(self.least_linear, false)).unwrap_or(linear);
         Drag([linear, self.term(FieldTerm::Quadratic, at), self.term(FieldTerm::Cubic, at)])
     }
 
@@ -165,18 +132,18 @@ impl Problem {
         readings.time_s.partition_point(|time| *time < begin.upper())
     }
 
-    /// Of every interval between samples over a box, no speed above `fastest`; without meaning before the first known sample.
-    fn pushes(&self, record: usize, at: &[Interval], fastest: f64) -> Vec<Push> {
+    /// Of every interval between samples over a box; without meaning before the first known sample.
+    fn pushes(&self, record: usize, at: &[Interval]) -> Vec<Push> {
         let readings = &self.records[record];
         let [gain, stiffness] = [FieldTerm::Gain, FieldTerm::Stiffness].map(|term| self.term(term, at));
         let disturbance = at[self.unknowns.disturbance(record)];
-        let speed = Interval::symmetric(fastest);
+        let speed = Interval::symmetric(self.fastest);
         // Negative linear drag drives.
         let Drag([linear, ..]) = self.drag(at);
         let driving = Interval::symmetric((-linear.lower()).max(0.0)) * speed;
         let delay_s = self.delay_s(at);
         let command = &readings.command;
-        let windows: Vec<(f64, f64)> = (0..command.edges()).map(|edge| command.window(edge, delay_s)).collect();
+        let windows: Vec<Interval> = command.windows(delay_s).collect();
         let (mut done, mut begun) = (0, 0);
         // A force that acted before the log is within the commands of the log.
         let any = Interval::symmetric(command.largest());
@@ -189,11 +156,11 @@ impl Problem {
             let stray = readings.jitter_s;
             let from = plus(readings.time_s[sample], -stray).lower();
             let to = plus(readings.time_s[sample + 1], stray).upper();
-            while windows.get(done).is_some_and(|(_, close)| *close <= from) {
+            while windows.get(done).is_some_and(|window| window.upper() <= from) {
                 done += 1;
             }
             begun = begun.max(done);
-            while windows.get(begun).is_some_and(|(open, _)| *open < to) {
+            while windows.get(begun).is_some_and(|window| window.lower() < to) {
                 begun += 1;
             }
             let acts = command.between(done, begun);
@@ -228,7 +195,7 @@ impl Problem {
             return Vec::new();
         }
         let each = (0..self.records.len()).flat_map(|record| {
-            let spans = constant_spans(&self.pushes(record, at, self.fastest));
+            let spans = constant_spans(&self.pushes(record, at));
             spans.into_iter().map(move |span| self.records[record].contradiction(record, span))
         });
         each.into_iter().find(|readings| !readings.is_empty()).unwrap_or_default()
@@ -236,10 +203,7 @@ impl Problem {
 
     /// Encloses the velocity at every sample of a record over a box. `None` where the box holds no motion.
     pub(super) fn velocities(&self, record: usize, at: &[Interval]) -> Option<Velocities> {
-        let speeds = self.below_speed(record, at, self.fastest)?;
-        let driven = self.least_linear < 0.0 || self.unknowns.place_of(FieldTerm::Stiffness).is_some();
-        // Negative drag and a spring drive less where speeds are smaller.
-        let speeds = if driven { self.below_speed(record, at, speeds.fastest())? } else { speeds };
+        let speeds = self.on_exact_stamps(record, at)?;
         Some(if self.records[record].jitter_s > 0.0 { self.stamped(record, &speeds) } else { speeds })
     }
 
@@ -256,16 +220,14 @@ impl Problem {
         let over = |values: &[Interval], interval: usize| {
             values[near(interval)].iter().copied().fold(values[interval], Interval::hull)
         };
-        let rates: Vec<Interval> = (0..intervals).map(|interval| over(&speeds.rates, interval)).collect();
-        let between: Vec<Interval> = (0..intervals)
-            .map(|interval| {
-                let range = near(interval);
-                // Beyond the first and the last reading the acceleration goes on.
-                let ends = range.start == 0 || range.end == intervals;
-                let beyond = if ends { rates[interval] * Interval::symmetric(2.0 * stray) } else { Interval::ZERO };
-                over(&speeds.between, interval) + beyond
-            })
-            .collect();
+        let stamped = (0..intervals).map(|interval| {
+            let (range, rate) = (near(interval), over(&speeds.rates, interval));
+            // Beyond the first and the last reading the acceleration goes on.
+            let ends = range.start == 0 || range.end == intervals;
+            let beyond = if ends { rate * Interval::symmetric(2.0 * stray) } else { Interval::ZERO };
+            (rate, over(&speeds.between, interval) + beyond)
+        });
+        let (rates, between): (Vec<Interval>, Vec<Interval>) = stamped.unzip();
         let at_samples = (0..=intervals)
             .map(|sample| between[sample.saturating_sub(1)].hull(between[sample.min(intervals - 1)]))
             .collect();
@@ -303,19 +265,17 @@ impl Problem {
         Some(())
     }
 
-    /// The same where no speed exceeds `fastest`.
+    /// The same where every stamp is exact.
     ///
     /// Drag brakes: with an acceleration without drag of at most A, a velocity v > 0 needs a way of at least `v T - A T^2/2` in the time T
     /// before it, or began in T; and ahead of a mean velocity m > 0 over T it was at least `m - A T/2`.
-    fn below_speed(&self, record: usize, at: &[Interval], fastest: f64) -> Option<Velocities> {
-        let pushes = self.pushes(record, at, fastest);
+    fn on_exact_stamps(&self, record: usize, at: &[Interval]) -> Option<Velocities> {
+        let pushes = self.pushes(record, at);
         let readings = &self.records[record];
         let value = &readings.value;
-        let half = Interval::point(0.5);
-        let drag = self.drag(at);
+        let (half, drag) = (Interval::point(0.5), self.drag(at));
         let known = self.known(record, at).min(value.len() - 1);
-        let mut speeds = vec![Interval::symmetric(self.fastest); known];
-        speeds.resize(value.len(), Interval::symmetric(fastest));
+        let mut speeds = vec![Interval::symmetric(self.fastest); value.len()];
         for span in SPANS {
             for first in known..value.len().saturating_sub(span) {
                 let last = first + span;
@@ -324,63 +284,32 @@ impl Problem {
                     continue;
                 }
                 let mean = readings.mean_velocity(first, last);
-                let most = pushes[first..last].iter().fold(NONE, |most, push| Push {
-                    up: most.up.max(push.up),
-                    down: most.down.max(push.down),
-                    ..most
-                });
-                let [up, down] = most.gains(lasted);
+                let most = pushes[first..last]
+                    .iter()
+                    .fold([0.0f64; 2], |[up, down], push| [up.max(push.up), down.max(push.down)]);
+                let [up, down] = most.map(|push| (Interval::point(push) * Interval::point(lasted.upper())).upper());
                 let [half_up, half_down] = [up, down].map(|gained| half * Interval::point(gained));
                 let fast = (mean + half_up).upper().max(up);
                 let slow = (mean - half_down).lower().min(-down);
                 speeds[last] = speeds[last].intersection(Interval::new(slow, fast)?)?;
                 let (least, largest) = ((mean - half_up).lower(), (mean + half_down).upper());
-                if least > 0.0 {
-                    speeds[first] = speeds[first].intersection(above(least))?;
-                }
-                if largest < 0.0 {
-                    speeds[first] = speeds[first].intersection(below(largest))?;
-                }
+                let least = if least > 0.0 { least } else { f64::NEG_INFINITY };
+                let largest = if largest < 0.0 { largest } else { f64::INFINITY };
+                speeds[first] = speeds[first].intersection(Interval::new(least, largest)?)?;
             }
         }
         let spans = if self.is_autonomous() { constant_spans(&pushes) } else { Vec::new() };
         for span in &spans {
             readings.monotone(*span, &mut speeds)?;
         }
-        for sample in known + 1..value.len() {
-            let [up, down] = pushes[sample - 1].gains(readings.lasted(sample - 1, sample));
-            let before = speeds[sample - 1];
-            let fast = below(plus(before.upper().max(0.0), up).upper());
-            let slow = above(plus(before.lower().min(0.0), -down).lower());
-            speeds[sample] = speeds[sample].intersection(fast)?.intersection(slow)?;
-            let lasted = readings.lasted(sample - 1, sample);
-            let force = pushes[sample - 1].force;
-            let least = drag.least(before.lower(), force, lasted);
-            let largest = -drag.least(-before.upper(), -force, lasted);
-            speeds[sample] = speeds[sample].intersection(above(least))?.intersection(below(largest))?;
-        }
-        for sample in (known + 1..value.len()).rev() {
-            let [up, down] = pushes[sample - 1].gains(readings.lasted(sample - 1, sample));
-            let (least, largest) =
-                (plus(speeds[sample].lower(), -up).lower(), plus(speeds[sample].upper(), down).upper());
-            if least > 0.0 {
-                speeds[sample - 1] = speeds[sample - 1].intersection(above(least))?;
-            }
-            if largest < 0.0 {
-                speeds[sample - 1] = speeds[sample - 1].intersection(below(largest))?;
-            }
-        }
         let mut between_samples = vec![Interval::symmetric(self.fastest); known];
         for sample in known + 1..value.len() {
-            let (push, lasted) = (pushes[sample - 1], readings.lasted(sample - 1, sample));
-            let (before, after) = (speeds[sample - 1], speeds[sample]);
-            let least = drag.least_within(before.lower(), push.force, lasted);
-            let largest = -drag.least_within(-before.upper(), -push.force, lasted);
-            let range = between(before, after, push, lasted);
-            between_samples.push(range.intersection(above(least))?.intersection(below(largest))?);
+            let lasted = readings.lasted(sample - 1, sample);
+            let passed = drag.passed(speeds[sample - 1], pushes[sample - 1].force, lasted);
+            speeds[sample] = speeds[sample].intersection(passed)?;
+            between_samples.push(passed);
         }
         for span in &spans {
-            readings.monotone(*span, &mut speeds)?;
             for sample in span.first..span.last {
                 let passed = speeds[sample].hull(speeds[sample + 1]);
                 between_samples[sample] = between_samples[sample].intersection(passed)?;
@@ -391,31 +320,5 @@ impl Problem {
         self.accelerated(record, &mut speeds)?;
         speeds.rates = self.rates(at, &pushes, &speeds.between);
         Some(speeds)
-    }
-
-    /// Whether the velocities lead from each reading to every later one.
-    pub(super) fn is_travelled(&self, record: usize, velocities: &Velocities) -> bool {
-        let readings = &self.records[record];
-        let room = Interval::two() * Interval::point(readings.error);
-        // The least and the largest way so far, less the way of the readings; and the extremes of both.
-        let (mut least, mut largest) = (Interval::ZERO, Interval::ZERO);
-        let (mut lowest, mut highest) = (Interval::ZERO, Interval::ZERO);
-        for sample in velocities.known + 1..velocities.at_samples.len() {
-            let lasted = readings.lasted(sample - 1, sample);
-            let range = velocities.between[sample - 1];
-            let way = Interval::point(readings.value[sample]) - Interval::point(readings.value[sample - 1]);
-            least += Interval::point((Interval::point(range.lower()) * lasted).lower()) - way;
-            largest += Interval::point((Interval::point(range.upper()) * lasted).upper()) - way;
-            if (least - lowest).lower() > room.upper() || (highest - largest).lower() > room.upper() {
-                return false;
-            }
-            if least.upper() < lowest.upper() {
-                lowest = least;
-            }
-            if largest.lower() > highest.lower() {
-                highest = largest;
-            }
-        }
-        true
     }
 }

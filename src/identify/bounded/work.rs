@@ -10,7 +10,7 @@ const ENTRY: f64 = 0.004;
 
 /// Work done so far; clones count together.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Work {
+pub struct Work {
     steps: Rc<Cell<f64>>,
 }
 
@@ -20,22 +20,22 @@ impl Work {
     }
 
     /// A step of the flow with so many blocks of sensitivities.
-    pub(super) fn step(&self, blocks: usize) {
+    pub fn step(&self, blocks: usize) {
         self.add(0.5 + 0.5 * blocks as f64);
     }
 
     /// Modulating functions over so many samples, each as much as a step.
-    pub(super) fn weighted(&self, samples: usize) {
+    pub fn weighted(&self, samples: usize) {
         self.add(samples as f64);
     }
 
     /// Entries of inequalities, or unknowns of an exchange.
-    pub(super) fn entries(&self, count: usize) {
+    pub fn entries(&self, count: usize) {
         self.add(ENTRY * count as f64);
     }
 
     /// Work in passes.
-    pub(super) fn passes(&self) -> usize {
+    pub fn passes(&self) -> usize {
         (self.steps.get() / PASS) as usize
     }
 }

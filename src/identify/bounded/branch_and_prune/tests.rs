@@ -18,11 +18,11 @@ fn the_widest_box_comes_first_and_of_two_as_wide_the_later() {
 fn boxes_that_are_left_contain_the_truth_and_none_is_left_beside_it() {
     let problem = Problem::new(&[&record(300)], &settings(DragLaw::Linear)).expect("a problem");
     let mut contractor = Contractor::new(problem.clone());
-    let found = contractor.prune(vec![problem.search.clone()], 2000);
+    let found = contractor.prune(problem.search.clone(), 2000);
     assert!(found.complete);
     let truth = [1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA];
     let holds = |kept: &Kept| kept.at.iter().zip(truth).all(|(side, value)| side.contains(value));
     assert!(found.kept.iter().any(holds));
     let budget = contractor.passes() + 2000;
-    assert!(contractor.prune(vec![off(&problem, 0.05, 0.01)], budget).kept.is_empty());
+    assert!(contractor.prune(off(&problem, 0.05, 0.01), budget).kept.is_empty());
 }

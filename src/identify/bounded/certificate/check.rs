@@ -111,7 +111,7 @@ fn check_witness(problem: &Problem, witness: &Witness) -> Result<(), Unproved> {
     if rows.into_iter().any(|(row, limit)| *limit < -ROUNDING * size(row)) {
         return Err(outside());
     }
-    let misfits = own.single_shooting().into_iter().map(|span| own.misfit(span, at).unwrap_or(f64::INFINITY));
+    let misfits = own.single_shooting().map(|span| own.misfit(span, at).unwrap_or(f64::INFINITY));
     let misfit = misfits.fold(0.0, f64::max);
     if misfit <= 1.0 { Ok(()) } else { Err(Unproved::Witness { misfit }) }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::super::linear_relaxation::Origin;
+use super::super::linear_relaxation::{Origin, half_line};
 use super::super::problem::Problem;
 use super::super::settings::BoundedModel;
 use super::super::vector_field::FieldTerm;
@@ -136,10 +136,7 @@ pub(super) enum Step {
 impl Cut {
     /// Shortens the range; `false` where it becomes empty.
     pub(super) fn shorten(&self, at: &mut [Interval]) -> bool {
-        let side = at[self.unknown];
-        let half =
-            if self.upper { Interval::new(side.lower(), self.end) } else { Interval::new(self.end, side.upper()) };
-        let left = half.and_then(|half| half.intersection(side));
+        let left = at[self.unknown].intersection(half_line(self.end, self.upper));
         left.inspect(|left| at[self.unknown] = *left).is_some()
     }
 }

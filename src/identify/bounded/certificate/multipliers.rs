@@ -50,7 +50,7 @@ pub(super) fn seek(
     target: &[Interval],
     margin: ExclusionMargin,
 ) -> Contraction {
-    let programme = relaxation.programme(&relaxation.places());
+    let programme = relaxation.programme();
     let uncertainty = |multipliers: &Multipliers| -> f64 {
         let of = |(row, y): &(usize, f64)| y * relaxation.uncertainty(*row).map(|(_, part)| part).sum::<f64>();
         margin.of_uncertainty * multipliers.iter().map(of).sum::<f64>()

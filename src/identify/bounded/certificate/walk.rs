@@ -178,7 +178,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The inequalities over a box, of readings and modulating functions those in the `combinations`; `Some(None)` where it is empty.
+    /// The inequalities over a box, of modulating functions those in the `combinations`; `Some(None)` where it is empty.
     fn enclose<'r>(
         &self,
         by: By,
@@ -197,8 +197,7 @@ impl<'a> Walk<'a> {
                 problem.modulate(&supports, &mut direct)
             }
             By::Shooting(horizon) => {
-                let used = self.used(&origins);
-                let problem = Problem { horizon, used, ..self.problem.clone() };
+                let problem = Problem { horizon, ..self.problem.clone() };
                 match problem.shoot(&mut direct, midpoints(here)) {
                     Ok(relaxation) => Some(relaxation.ok_or(none)?),
                     Err(_) => None,
@@ -210,22 +209,6 @@ impl<'a> Walk<'a> {
             let rows = relaxation.origins.iter().enumerate().map(|(row, origin)| (*origin, row)).collect();
             Enclosed { relaxation, rows, direct }
         }))
-    }
-
-    /// The samples of the readings among the origins. With errors of stamps all are used: the speed since the sample before matters.
-    fn used(&self, origins: &[Origin]) -> Option<Vec<BTreeSet<usize>>> {
-        if self.problem.records.iter().any(|readings| readings.jitter_s > 0.0) {
-            return None;
-        }
-        let mut used = vec![BTreeSet::new(); self.problem.records.len()];
-        for origin in origins {
-            if let Origin::Reading { interval, sample, .. } = origin
-                && let Some(own) = self.problem.unknowns.shooting.get(*interval)
-            {
-                used[own.record].insert(*sample);
-            }
-        }
-        Some(used)
     }
 }
 

@@ -11,7 +11,7 @@ fn feasible_points_are_found_towards_both_ends_of_the_bounds() {
     let record = oscillation(DragAxis::mixed(1.2, 0.5, 0.4).expect("an axis"), 10.0, 25.0);
     let problem = Problem::new(&[&record], &settings(DragLaw::Mixed)).expect("a problem");
     let mut contractor = Contractor::new(problem.clone());
-    let hull = contractor.prune(vec![problem.search], 2000).hull().expect("not empty: the truth is inside");
+    let hull = contractor.prune(problem.search, 2000).hull().expect("not empty: the truth is inside");
     let nearest = contractor.nearest(&hull, &hull).filter(ParameterPoint::is_feasible).expect("a feasible point");
     for place in 0..contractor.problem.unknowns.common() {
         let [low, high] = [-1.0, 1.0].map(|sign| contractor.furthest(&nearest, &hull, place, sign));

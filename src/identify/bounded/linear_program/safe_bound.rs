@@ -5,21 +5,21 @@ use crate::numeric::Interval;
 
 /// Inequalities `sum_j a_kj z_j <= b_k`, each for some element of its interval coefficients, about deviations z within a box.
 #[derive(Clone, Debug, Default)]
-pub(in super::super) struct Inequalities {
+pub struct Inequalities {
     /// By row: the unknowns that it has, with their coefficients.
-    pub(in super::super) coefficients: Vec<Vec<(usize, Interval)>>,
+    pub coefficients: Vec<Vec<(usize, Interval)>>,
     /// Upper bounds b of the right-hand sides.
-    pub(in super::super) limits: Vec<f64>,
+    pub limits: Vec<f64>,
 }
 
 /// Nonnegative multipliers by the number of the row.
-pub(in super::super) type Multipliers = Vec<(usize, f64)>;
+pub type Multipliers = Vec<(usize, f64)>;
 
 impl Inequalities {
     /// An upper bound of `c . z` over the z of the box that satisfy the inequalities. For any `y >= 0`
     /// `c . z <= sum_k y_k b_k + sum_j (c_j - sum_k y_k a_kj) z_j`, evaluated in intervals. With c = 0 a negative bound proves that no z
     /// does.
-    pub(in super::super) fn upper_bound(
+    pub fn upper_bound(
         &self,
         objective: &[(usize, f64)],
         multipliers: &Multipliers,

@@ -19,17 +19,15 @@ impl Problem {
     pub(super) fn forcing(&self, record: usize, hat: &Hat, delay_s: Interval) -> Forcing {
         let command = &self.records[record].command;
         let middle = Interval::point(delay_s.midpoint());
-        let mut force = Interval::point(command.first_level()) * hat.area();
+        let mut force = Interval::point(command.levels[0]) * hat.area();
         let mut by_delay = Interval::ZERO;
-        for edge in 0..command.edges() {
-            let (open, close) = command.window(edge, delay_s);
-            if open >= hat.r.upper() {
+        for (edge, (over, own)) in command.windows(delay_s).zip(command.windows(middle)).enumerate() {
+            if over.lower() >= hat.r.upper() {
                 break;
             }
-            let (first, last) = command.window(edge, middle);
-            let after = (hat.area() - hat.area_to(first)).hull(hat.area() - hat.area_to(last));
+            let after = (hat.area() - hat.area_to(own.lower())).hull(hat.area() - hat.area_to(own.upper()));
             force -= command.drop_at(edge) * after;
-            by_delay += command.drop_at(edge) * hat.height(open, close);
+            by_delay += command.drop_at(edge) * hat.height(over);
         }
         Forcing { force, by_delay, by_lag_rate: Interval::ZERO }
     }
@@ -41,22 +39,19 @@ impl Problem {
         let command = &readings.command;
         let middle = Interval::point(delay_s.midpoint());
         let (lag_s, lag) = (Interval::ONE / rate, Interval::ONE / Interval::point(rate.midpoint()));
-        let constant = Interval::point(command.first_level()) * hat.area();
+        let constant = Interval::point(command.levels[0]) * hat.area();
         let (mut force, mut by_delay, mut by_lag) = (constant, Interval::ZERO, Interval::ZERO);
         let mut range = constant;
-        for edge in 0..command.edges() {
-            let (open, close) = command.window(edge, delay_s);
-            if open >= hat.r.upper() {
+        for (edge, (over, own)) in command.windows(delay_s).zip(command.windows(middle)).enumerate() {
+            if over.lower() >= hat.r.upper() {
                 break;
             }
             let drop = command.drop_at(edge);
-            let (first, last) = command.window(edge, middle);
-            force -= drop * hat.lagged_area(first, lag).hull(hat.lagged_area(last, lag));
-            let most = hat.lagged_area(open, Interval::point(lag_s.lower()));
-            range -= drop * most.hull(hat.lagged_area(close, Interval::point(lag_s.upper())));
-            let instants = Interval::point(open).hull(Interval::point(close));
-            by_delay += drop * hat.lagged_height(instants, lag_s);
-            by_lag += drop * hat.lagged_lever(instants, lag_s);
+            force -= drop * hat.lagged_area(own.lower(), lag).hull(hat.lagged_area(own.upper(), lag));
+            let most = hat.lagged_area(over.lower(), Interval::point(lag_s.lower()));
+            range -= drop * most.hull(hat.lagged_area(over.upper(), Interval::point(lag_s.upper())));
+            by_delay += drop * hat.lagged_height(over, lag_s);
+            by_lag += drop * hat.lagged_lever(over, lag_s);
         }
         // The force before the log is within the commands, and forgotten at the rate of the lag.
         let since = hat.l - (Interval::point(readings.time_s[0]) + delay_s);

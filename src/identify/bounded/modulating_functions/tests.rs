@@ -33,7 +33,7 @@ fn known() -> (Readings, Velocities) {
     let range = |t: f64| Interval::new(speed(t) - UNSURE[0], speed(t) + UNSURE[1]).expect("ordered");
     let at_samples: Vec<Interval> = time_s.iter().map(|t| range(*t)).collect();
     let between: Vec<Interval> = at_samples.windows(2).map(|pair| pair[0].hull(pair[1])).collect();
-    let command = Command::new(vec![1.0, -1.0], vec![(3.0, 3.0)]);
+    let command = Command { levels: vec![1.0, -1.0], spans: vec![Interval::point(3.0)] };
     let rates = vec![Interval::symmetric(1.3 * 1.3); between.len()];
     (
         Readings { time_s, value, error: ERROR, jitter_s: 0.0, command },

@@ -49,11 +49,10 @@ impl Hat {
         }
     }
 
-    /// All heights between two instants.
-    pub(super) fn height(&self, from: f64, to: f64) -> Interval {
-        let ends = self.height_at(from).hull(self.height_at(to));
-        let peak = from <= self.m.lower() && self.m.upper() <= to;
-        if peak { ends.hull(Interval::ONE) } else { ends }
+    /// All heights over a range of instants.
+    pub(super) fn height(&self, instants: Interval) -> Interval {
+        let ends = self.height_at(instants.lower()).hull(self.height_at(instants.upper()));
+        if self.m.is_subset_of(instants) { ends.hull(Interval::ONE) } else { ends }
     }
 
     /// The area up to an instant.

@@ -4,6 +4,7 @@
 //! or concave, and the velocity at a sample is between a mean velocity before it and a mean velocity after it.
 
 use super::super::answer::Contradicting;
+use super::super::linear_relaxation::half_line;
 use super::super::problem::Problem;
 use super::super::record::Readings;
 use super::super::vector_field::FieldTerm;
@@ -50,16 +51,14 @@ impl Readings {
     /// The velocities, all times `sign`, if they rise: none is below a mean before it, nor above a mean after it.
     fn rising(&self, span: Constant, mut velocities: Vec<Interval>, sign: Interval) -> Option<Vec<Interval>> {
         for (velocity, [least, most]) in velocities.iter_mut().zip(self.means(span, sign)) {
-            *velocity = velocity.intersection(Interval::new(least.end, f64::INFINITY)?)?;
-            *velocity = velocity.intersection(Interval::new(f64::NEG_INFINITY, most.end)?)?;
+            *velocity = velocity.intersection(Interval::new(least.end, most.end)?)?;
         }
         for sample in 1..velocities.len() {
-            let before = Interval::new(velocities[sample - 1].lower(), f64::INFINITY)?;
-            velocities[sample] = velocities[sample].intersection(before)?;
+            velocities[sample] = velocities[sample].intersection(half_line(velocities[sample - 1].lower(), false))?;
         }
         for sample in (1..velocities.len()).rev() {
-            let after = Interval::new(f64::NEG_INFINITY, velocities[sample].upper())?;
-            velocities[sample - 1] = velocities[sample - 1].intersection(after)?;
+            velocities[sample - 1] =
+                velocities[sample - 1].intersection(half_line(velocities[sample].upper(), true))?;
         }
         Some(velocities)
     }

@@ -36,23 +36,20 @@ fn end(passed: &[f64]) -> f64 {
 }
 
 #[test]
-fn a_velocity_that_is_certain_is_reached_and_one_by_the_first_rate_alone_is_not() {
+fn the_least_velocity_is_enclosed_and_by_the_first_rate_alone_it_is_not() {
     let lasted = Interval::point(LASTED_S);
     let mut by_the_first_rate = 0;
     for (drag, force, v) in cases() {
         let passed = motion(drag, force, v);
-        let own = Drag(drag.map(Interval::point));
-        let least = own.least(v, Interval::point(force), lasted);
-        assert!(least <= end(&passed) + MISSED, "{drag:?} {force} {v}: {least} is above {}", end(&passed));
-        // Hardly less than it is: rates change by a tenth of themselves.
-        let changed = (end(&passed) - v).abs();
-        assert!(end(&passed) - least <= 0.2 * changed + MISSED, "{drag:?} {force} {v}: {least} for {}", end(&passed));
-        let within = own.least_within(v, Interval::point(force), lasted);
+        let least = Drag(drag.map(Interval::point)).least(v, Interval::point(force), lasted);
         let lowest = passed.iter().copied().fold(v, f64::min);
-        assert!(within <= lowest + MISSED, "{drag:?} {force} {v}: {within} is above {lowest}");
+        assert!(least <= lowest + MISSED, "{drag:?} {force} {v}: {least} is above {lowest}");
+        // Hardly less than it is: rates change by a tenth of themselves.
+        let changed = (lowest - v).abs();
+        assert!(lowest - least <= 0.2 * changed + MISSED, "{drag:?} {force} {v}: {least} for {lowest}");
         by_the_first_rate += usize::from(v + LASTED_S * rate(drag, force, v) > end(&passed) + MISSED);
     }
-    assert!(by_the_first_rate > 20, "the first rate alone is wrong {by_the_first_rate} times");
+    assert!(by_the_first_rate > 10, "the first rate alone is wrong {by_the_first_rate} times");
 }
 
 #[test]

@@ -1,9 +1,11 @@
+//! The linear programmes of guaranteed bounds: the simplex method against corners, and against its own multipliers.
+
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::super::work::Work;
-use super::*;
-use crate::numeric::Interval;
+use selfosc::identify::bounded::linear_program::{Inequalities, Outcome, Programme};
+use selfosc::identify::bounded::work::Work;
+use selfosc::numeric::Interval;
 
 /// The largest value of an objective over the corners of `a . z <= b`, each where two of these meet; none where no corner is left.
 fn highest_corner(constraints: &[([f64; 2], f64)], objective: [f64; 2]) -> Option<f64> {
@@ -37,7 +39,7 @@ fn the_highest_corner_is_reached_and_its_multipliers_show_it() {
         let all: Vec<([f64; 2], f64)> = rows.iter().copied().chain(sides).collect();
         let sought: Vec<(usize, f64)> = objective.into_iter().enumerate().collect();
         match (
-            Programme::of(&inequalities, &deviations, &[0, 1], &Work::default()).maximise(&sought),
+            Programme::of(&inequalities, &deviations, &Work::default()).maximise(&sought),
             highest_corner(&all, objective),
         ) {
             (Outcome::Bounded { multipliers, at }, Some(highest)) => {
@@ -63,7 +65,7 @@ fn the_highest_corner_is_reached_and_its_multipliers_show_it() {
 fn without_an_unknown_a_row_is_met_or_it_is_not() {
     let outcome = |limit: f64| {
         let rows = Inequalities { coefficients: vec![Vec::new()], limits: vec![limit] };
-        Programme::of(&rows, &[], &[], &Work::default()).maximise(&[])
+        Programme::of(&rows, &[], &Work::default()).maximise(&[])
     };
     assert!(matches!(outcome(1.0), Outcome::Bounded { .. }));
     assert!(matches!(outcome(-1.0), Outcome::Empty { .. }));
@@ -105,10 +107,9 @@ fn a_point_that_meets_all_rows_and_multipliers_that_allow_no_more_show_each_othe
     for number in 0..200 {
         let unknowns = random.random_range(2..30);
         let (rows, deviations) = of_windows(&mut random, unknowns, number % 3 > 0);
-        let places: Vec<usize> = (0..unknowns).collect();
         let sought: Vec<(usize, f64)> =
             (0..random.random_range(1..4)).map(|k| (k * 7 % unknowns, random.random_range(-1.0..1.0))).collect();
-        let programme = Programme::of(&rows, &deviations, &places, &Work::default());
+        let programme = Programme::of(&rows, &deviations, &Work::default());
         short += usize::from(programme.rows() < rows.limits.len());
         match programme.maximise(&sought) {
             Outcome::Bounded { multipliers, at } => {
@@ -142,6 +143,6 @@ fn rows_that_are_met_all_over_the_box_are_left_out_and_those_that_just_may_be_mi
         limits: vec![limit, 1.0],
     };
     // By the slope that is met most easily three is the largest.
-    let of = |limit: f64| Programme::of(&rows(limit), &[side], &[0], &Work::default()).rows();
+    let of = |limit: f64| Programme::of(&rows(limit), &[side], &Work::default()).rows();
     assert_eq!([of(3.01), of(2.99), of(-100.0)], [0, 1, 1]);
 }
