@@ -6,7 +6,7 @@ from math import sqrt
 from boxes import number
 from check import require
 
-FORMAT = 4
+FORMAT = 5
 REACH = 100.0
 TERMS = {"gain": None, "linear": None, "quadratic": None, "cubic": "cubic", "stiffness": "stiffness", "lag_rate": "lag"}
 FIELDS = {"format", "version", "statement", "model", "read_as", "records", "searched", "stages", "witness"}

@@ -10,8 +10,8 @@ use super::unproved::Unproved;
 use crate::experiment::{Columns, Record};
 use crate::numeric::Interval;
 
-/// Changes with the meaning of a field.
-const FORMAT: u32 = 4;
+/// Changes with the meaning of a field, and with the bounds on which steps rest.
+const FORMAT: u32 = 5;
 
 /// The statement, its readings, and the steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
