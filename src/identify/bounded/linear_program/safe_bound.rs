@@ -19,12 +19,7 @@ impl Inequalities {
     /// An upper bound of `c . z` over the z of the box that satisfy the inequalities. For any `y >= 0`
     /// `c . z <= sum_k y_k b_k + sum_j (c_j - sum_k y_k a_kj) z_j`, evaluated in intervals. With c = 0 a negative bound proves that no z
     /// does.
-    pub fn upper_bound(
-        &self,
-        objective: &[(usize, f64)],
-        multipliers: &Multipliers,
-        deviations: &[Interval],
-    ) -> f64 {
+    pub fn upper_bound(&self, objective: &[(usize, f64)], multipliers: &Multipliers, deviations: &[Interval]) -> f64 {
         let mut reduced = vec![Interval::ZERO; deviations.len()];
         for (unknown, weight) in objective {
             reduced[*unknown] += Interval::point(*weight);
