@@ -46,9 +46,10 @@ def reached(cut, side, most):
     bound = None if high <= sign * end else most()
     if bound is None or bound <= sign * end:
         return cut | {"end": end}
-    require(low <= sign * end, "a range is said to be empty, and is not")
     bound = arb(bound).upper()
-    return cut | {"end": sign * up(bound)} if bound.is_finite() else None
+    shown = up(bound) if bound.is_finite() else None
+    require(low <= sign * end or (shown is not None and shown < low), "a range is said to be empty, and is not")
+    return None if shown is None else cut | {"end": sign * shown}
 
 
 def shortened(sides, cuts):

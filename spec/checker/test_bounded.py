@@ -73,10 +73,12 @@ def test_a_cut_goes_as_far_as_is_shown_and_no_further(upper):
     assert reached(1.0, arb("inf")) is None and reached(1.0, arb("nan")) is None
     # Beyond the box nothing needs to be shown.
     assert end(3.5, arb("inf")) == 3.5
-    # One that is to leave nothing must leave nothing.
+    # One that is to leave nothing must leave nothing, by whichever bound below the box.
     assert end(-4.0, arb(-5)) == -4.0
-    with pytest.raises(Refused):
-        reached(-4.0, arb(-3))
+    assert -3.0 <= end(-4.0, arb(-3)) < -2.0
+    for most in (arb(-1), arb("inf"), arb("nan")):
+        with pytest.raises(Refused):
+            reached(-4.0, most)
 
 
 def test_a_cut_that_says_more_than_its_rows_show_changes_nothing(monkeypatch):
