@@ -213,7 +213,7 @@ impl core::fmt::Display for Reason {
             Self::SearchEnded { joining } => write!(
                 f,
                 "the search for terms reached its limit of work, about a second of processor time: {} were not looked for; give a part of \
-                 the record (--from, --to), or the delay (--delay)",
+                 the record (--from, --to)",
                 if joining { "further terms" } else { "other terms in place of those found" }
             ),
             Self::DoesNotPredict { explained } => {
