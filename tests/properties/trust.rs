@@ -64,6 +64,21 @@ fn a_search_that_would_take_long_says_what_it_left_out() {
     assert_eq!(trust, [Trust::Doubtful, Trust::Widened, Trust::Widened]);
 }
 
+/// The search in the beginning of a long record says it, too: a record read eight times as often, by interpolation.
+#[test]
+fn a_long_record_says_what_the_search_in_its_beginning_left_out() {
+    let record = Kind::named("random-walk force 0.05").unwrap().case(2).runs[0].record.clone();
+    let parts = || (1..record.time_s.len()).flat_map(|k| (0..8).map(move |part| (k, f64::from(part) / 8.0)));
+    let between = |values: &[f64]| -> Vec<f64> {
+        parts().map(|(k, share)| values[k - 1] + share * (values[k] - values[k - 1])).collect()
+    };
+    let input = parts().map(|(k, _)| record.input[k - 1]).collect();
+    let dense = Record::new(between(&record.time_s), between(&record.output), input).unwrap();
+    assert!(dense.samples() > Estimator::SEARCHED);
+    let reasons = Estimator::new(Delay::Estimated).record(&dense).unwrap().reported.reasons;
+    assert!(reasons.iter().any(|reason| matches!(reason, Reason::SearchEnded { .. })), "{reasons:?}");
+}
+
 /// Few cases of kinds that once were wrong by many half-widths without a word; the long run is in `spec/trust.md`.
 #[test]
 fn trusted_answers_hold_on_imperfect_vehicles() {
