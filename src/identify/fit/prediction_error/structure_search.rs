@@ -6,7 +6,6 @@
 mod gaps;
 
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
@@ -86,9 +85,8 @@ pub(super) struct StructureSearch<'a> {
     clocks: Vec<Clock>,
     readings: [OnceLock<Observations>; 4],
     unseen_s: f64,
-    integrated: AtomicUsize,
-    ended_early: AtomicBool,
-    /// By the search in the first part of a long record.
+    /// Steps of searches before this one, with other instants in gaps.
+    integrated: usize,
     left_out: LeftOut,
 }
 
@@ -118,17 +116,7 @@ impl<'a> StructureSearch<'a> {
         let clocks = if grid(record).is_some() { vec![Clock::Stamps, Clock::Grid] } else { vec![Clock::Stamps] };
         let head = record.beginning(LONGEST_SEARCHED);
         let readings = [const { OnceLock::new() }; 4];
-        Self {
-            record,
-            head,
-            known,
-            clocks,
-            readings,
-            unseen_s: 0.0,
-            integrated: AtomicUsize::new(0),
-            ended_early: AtomicBool::new(false),
-            left_out: LeftOut::Nothing,
-        }
+        Self { record, head, known, clocks, readings, unseen_s: 0.0, integrated: 0, left_out: LeftOut::Nothing }
     }
 
     pub(super) fn observations(&self, model: &VehicleModel) -> &Observations {
@@ -145,19 +133,15 @@ impl<'a> StructureSearch<'a> {
     }
 
     fn climb(&self, model: VehicleModel) -> Option<Fitted> {
-        self.climb_beyond(model, f64::NEG_INFINITY)
+        climb(self.observations(&model), model)
     }
 
-    fn climb_beyond(&self, model: VehicleModel, worth: f64) -> Option<Fitted> {
-        let fitted = climb_beyond(self.observations(&model), model, MOST_STEPS, worth)?;
-        self.integrated.fetch_add(fitted.integrated, Ordering::Relaxed);
-        Some(fitted)
-    }
-
-    /// Whether a further round of the search may begin. The sum over parallel climbs does not depend on their order.
-    fn goes_on(&self) -> bool {
-        let goes_on = self.integrated.load(Ordering::Relaxed) < MOST_INTEGRATED;
-        self.ended_early.fetch_or(!goes_on, Ordering::Relaxed);
+    /// Whether a further round of the search may begin; if not, it is noted as left out.
+    fn goes_on(&mut self, tried: &[Fitted], round: LeftOut) -> bool {
+        let goes_on = self.integrated + integrated(tried) < MOST_INTEGRATED;
+        if !goes_on {
+            self.left_out = self.left_out.max(round);
+        }
         goes_on
     }
 
@@ -168,7 +152,7 @@ impl<'a> StructureSearch<'a> {
         };
         let valued = starts.into_iter().filter_map(|model| Some((value(&model)?, model)));
         let (_, best) = valued.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        self.climb_beyond(best, worth)
+        climb_beyond(self.observations(&best), best, MOST_STEPS, worth)
     }
 
     /// From each start a model that follows the record by a white force of free intensity, then one without it; the likeliest.
@@ -263,17 +247,18 @@ impl<'a> StructureSearch<'a> {
         }
         let mut found = self.search(begin.clone());
         for _ in 0..MOST_READINGS {
-            if !self.goes_on() || !self.read_gaps(&found.tried) {
+            if !self.goes_on(&found.tried, LeftOut::Alternatives) || !self.read_gaps(&found.tried) {
                 break;
             }
+            self.integrated += integrated(&found.tried);
             found = self.search(self.again(&begin)?);
         }
         Some((self, found))
     }
 
     /// From models that are fitted: terms join unless the record is long, and unneeded terms leave.
-    fn search(&self, mut tried: Vec<Fitted>) -> SearchOutcome {
-        let (mut best, complete) = if self.is_long() { (self.best(&tried), true) } else { self.joined(&mut tried) };
+    fn search(&mut self, mut tried: Vec<Fitted>) -> SearchOutcome {
+        let mut best = if self.is_long() { self.best(&tried) } else { self.joined(&mut tried) };
         // Leave out what is no longer needed, drag terms too.
         loop {
             let current = tried[best].clone();
@@ -290,20 +275,14 @@ impl<'a> StructureSearch<'a> {
         let others = self.other_laws(&tried, &tried[best].model);
         tried.extend(others.into_par_iter().filter_map(|model| self.climb(model)).collect::<Vec<_>>());
         best = self.best(&tried);
-        let left_out = match (complete, self.ended_early.load(Ordering::Relaxed)) {
-            (false, _) => LeftOut::Terms,
-            (true, true) => LeftOut::Alternatives,
-            (true, false) => self.left_out,
-        };
-        SearchOutcome { tried, best, left_out }
+        SearchOutcome { tried, best, left_out: self.left_out }
     }
 
-    /// Terms join, confounded lags replace each other; returns the number of the best model, and whether every term was tried on the model
-    /// from which terms no longer joined.
-    fn joined(&self, tried: &mut Vec<Fitted>) -> (usize, bool) {
+    /// Terms join, confounded lags replace each other; returns the number of the best model.
+    fn joined(&mut self, tried: &mut Vec<Fitted>) -> usize {
         let start = self.best(tried);
         // Noise and process force can hide a structure: where they come first, the structure alone is tried too.
-        let (mut best, complete) = self.grow(tried, start, |_| true);
+        let mut best = self.grow(tried, start, |_| true, LeftOut::Terms);
         let first = tried[start].model.freedom();
         let structural = |fitted: &Fitted| {
             let has = |term: &Term| term.is_in(&fitted.model) && (*term != Term::Delay || self.known.delay_s.is_some());
@@ -314,31 +293,33 @@ impl<'a> StructureSearch<'a> {
         let alone = tried.iter().enumerate().filter(|(_, fitted)| structural(fitted) && fitted.log_likelihood > worth);
         let alone = alone.filter(|(_, fitted)| fitted.model.freedom() > first);
         let alone = alone.max_by(|a, b| a.1.log_likelihood.total_cmp(&b.1.log_likelihood)).map(|(index, _)| index);
-        if let Some(alone) = alone.filter(|_| noisy && self.goes_on()) {
-            let (grown, _) = self.grow(tried, alone, Term::is_structural);
-            self.grow(tried, grown, |_| true);
+        if let Some(alone) = alone.filter(|_| noisy) {
+            let grown = self.grow(tried, alone, Term::is_structural, LeftOut::Alternatives);
+            self.grow(tried, grown, |_| true, LeftOut::Alternatives);
             best = self.best(tried);
         }
-        (self.confounded_otherwise(tried, best), complete)
+        self.confounded_otherwise(tried, best)
     }
 
     /// Replaces the confounded lags by each other; returns the number of the best model.
-    fn confounded_otherwise(&self, tried: &mut Vec<Fitted>, from: usize) -> usize {
+    fn confounded_otherwise(&mut self, tried: &mut Vec<Fitted>, from: usize) -> usize {
         let current = tried[from].clone();
         let switched = self.observations(&current.model).switched;
         let mut others = confounded_lags::chains(&current.model, self.known.delay_s, switched);
-        if !others.is_empty() && self.goes_on() {
+        if !others.is_empty() && self.goes_on(tried, LeftOut::Alternatives) {
             others.retain(|model| !tried.iter().any(|fitted| fitted.model.is_alike(model)));
             let worth = current.log_likelihood - COUNTING;
-            let ends: Vec<Fitted> =
-                others.into_par_iter().filter_map(|model| self.climb_beyond(model, worth)).collect();
+            let ends: Vec<Fitted> = others
+                .into_par_iter()
+                .filter_map(|model| climb_beyond(self.observations(&model), model, MOST_STEPS, worth))
+                .collect();
             tried.extend(ends);
             if self.known.delay_s.is_none() && confounded_lags::is_in(&current.model) {
                 tried.extend(self.restarted_lags(&current.model));
             }
         }
         let best = self.best(tried);
-        if best == from { from } else { self.grow(tried, best, |_| true).0 }
+        if best == from { from } else { self.grow(tried, best, |_| true, LeftOut::Alternatives) }
     }
 
     /// Restarts each lag-like term from least squares over a grid of delays: inertia and total lag are nearly confounded, and a poor
@@ -367,12 +348,18 @@ impl<'a> StructureSearch<'a> {
         others.into_iter().filter(|model| !tried.iter().any(|fitted| fitted.model.is_alike(model))).collect()
     }
 
-    /// The best term joins, time and again; returns the number of the last model, and whether the limit of work allowed all of that.
-    fn grow(&self, tried: &mut Vec<Fitted>, from: usize, admitted: impl Fn(Term) -> bool) -> (usize, bool) {
+    /// The best term joins, time and again, unless the limit of work leaves the `rounds` out; returns the number of the last model.
+    fn grow(
+        &mut self,
+        tried: &mut Vec<Fitted>,
+        from: usize,
+        admitted: impl Fn(Term) -> bool,
+        rounds: LeftOut,
+    ) -> usize {
         let mut best = from;
         for _ in 0..MOST_TERMS {
-            if !self.goes_on() {
-                return (best, false);
+            if !self.goes_on(tried, rounds) {
+                break;
             }
             let current = tried[best].clone();
             let ends: Vec<(Fitted, f64)> = self
@@ -395,7 +382,7 @@ impl<'a> StructureSearch<'a> {
                 None => break,
             }
         }
-        (best, true)
+        best
     }
 
     /// Starts of the models one step from a model, with the number of parameters that the step adds.
@@ -470,6 +457,11 @@ impl<'a> StructureSearch<'a> {
         let admitted = tried.iter().enumerate().filter(|(_, fitted)| admitted(&fitted.model));
         admitted.max_by(|a, b| self.value(a.1).total_cmp(&self.value(b.1))).map(|(index, _)| index)
     }
+}
+
+/// Steps of the integrations that led to these models.
+fn integrated(tried: &[Fitted]) -> usize {
+    tried.iter().map(|fitted| fitted.integrated).sum()
 }
 
 /// Number of the reading of clock and switchings that a model has.
