@@ -120,13 +120,11 @@ impl Reported {
                 .drag_covariance
                 .map(|covariance| covariance.with_declared(declared, [Some(beta), Some(beta_quadratic), beta_cubic])),
             skew: optional(self.skew, 0.0, 0.0),
-            coulomb: optional(self.coulomb, 0.0, 0.0).map(Estimate::not_below_zero),
             memory: optional(self.memory, 1.0, 1.0),
             memory_s: time(self.memory_s),
             stiffness: optional(self.stiffness, 1.0, 0.0),
             lag_s: time(self.lag_s),
             ramp_s: time(self.ramp_s),
-            filter_s: time(self.filter_s),
             delay_s: practical(self.delay_s, delay).not_below_zero(),
             deltas,
             ..self

@@ -31,7 +31,7 @@ pub struct Reported<Drag = Estimate, Why = Reason> {
     pub drag_covariance: Option<DragCovariance>,
     /// Part by which drag is larger to the positive side than the mean of both, where the likeliest model has it.
     pub skew: Option<Estimate>,
-    /// Coulomb friction, where the likeliest model has it.
+    /// Coulomb friction of a model written by hand; no record is fitted with it.
     pub coulomb: Option<Estimate>,
     /// Factor of the drag that follows the speed late, where the likeliest model has it.
     pub memory: Option<Estimate>,
@@ -43,7 +43,7 @@ pub struct Reported<Drag = Estimate, Why = Reason> {
     pub lag_s: Option<Estimate>,
     /// Time of the actuator over the command's range in s, where the likeliest model limits its rate.
     pub ramp_s: Option<Estimate>,
-    /// Time constant of the sensor's filter in s, where the likeliest model has it.
+    /// Time constant of the sensor's filter in s, of a model written by hand; no record is fitted with it.
     pub filter_s: Option<Estimate>,
     /// Constant force during each record: in units of the record's own command where two levels leave the law of thrust open.
     #[serde(flatten)]
@@ -60,11 +60,11 @@ pub struct Reported<Drag = Estimate, Why = Reason> {
 }
 
 impl Reported {
-    /// Delay with the mean time by which lag and limited rate make the actuator late, and a filter the sensor, in s.
+    /// Delay with the mean time by which lag and limited rate make the actuator late, in s.
     #[must_use]
     pub fn mean_delay_s(&self) -> f64 {
         let late = |time_s: Option<Estimate>| time_s.map_or(0.0, |estimate| estimate.value);
-        self.delay_s.value + late(self.lag_s) + late(self.filter_s) + 0.5 * late(self.ramp_s)
+        self.delay_s.value + late(self.lag_s) + 0.5 * late(self.ramp_s)
     }
 
     /// Linear, quadratic and cubic drag.
@@ -94,7 +94,7 @@ impl Reported {
 
     fn forces(mut self, change: impl Fn(Estimate) -> Estimate) -> Self {
         let always = [&mut self.alpha, &mut self.beta, &mut self.beta_quadratic];
-        let others = [&mut self.beta_cubic, &mut self.coulomb, &mut self.memory, &mut self.stiffness];
+        let others = [&mut self.beta_cubic, &mut self.memory, &mut self.stiffness];
         let all = always.into_iter().chain(others.into_iter().flatten()).chain(self.deltas.iter_mut());
         all.for_each(|estimate| *estimate = change(*estimate));
         self

@@ -16,42 +16,27 @@ pub enum Term {
     CubicDrag,
     /// Drag that differs by the sign of the velocity.
     SkewDrag,
-    /// Coulomb friction.
-    Coulomb,
     /// Drag that follows the speed late, as of water set in motion before.
     FluidMemory,
-    /// First-order filter of the sensor.
-    SensorFilter,
     /// A delay that differs from the given delay.
     Delay,
     /// A force that walks at random.
     ProcessForce,
-    /// That force forgets (Ornstein-Uhlenbeck).
-    ProcessForceMemory,
     /// An error of the reading that is alike from sample to sample.
     ColouredNoise,
-    /// Time stamps that err at random.
-    StampJitter,
-    /// Instants of switching that err at random.
-    SwitchJitter,
 }
 
 impl Term {
-    pub(crate) const ALL: [Self; 14] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::Lag,
         Self::RateLimit,
         Self::Stiffness,
         Self::CubicDrag,
         Self::SkewDrag,
-        Self::Coulomb,
         Self::FluidMemory,
-        Self::SensorFilter,
         Self::Delay,
         Self::ProcessForce,
-        Self::ProcessForceMemory,
         Self::ColouredNoise,
-        Self::StampJitter,
-        Self::SwitchJitter,
     ];
 
     /// Name on the command line and in JSON.
@@ -63,15 +48,10 @@ impl Term {
             Self::Stiffness => "stiffness",
             Self::CubicDrag => "cubic-drag",
             Self::SkewDrag => "one-sided-drag",
-            Self::Coulomb => "coulomb-friction",
             Self::FluidMemory => "fluid-memory",
-            Self::SensorFilter => "sensor-filter",
             Self::Delay => "delay",
             Self::ProcessForce => "process-force",
-            Self::ProcessForceMemory => "process-force-memory",
             Self::ColouredNoise => "coloured-noise",
-            Self::StampJitter => "stamp-jitter",
-            Self::SwitchJitter => "switch-jitter",
         }
     }
 
@@ -83,15 +63,10 @@ impl Term {
             Self::Stiffness => "a restoring force acts",
             Self::CubicDrag => "drag grows with the cube of the speed",
             Self::SkewDrag => "drag is larger to one side than to the other",
-            Self::Coulomb => "friction acts that does not grow with the speed",
             Self::FluidMemory => "a part of the drag follows the speed late",
-            Self::SensorFilter => "the sensor follows the motion with a lag",
             Self::Delay => "the delay is another than the one given",
             Self::ProcessForce => "a force acts that changes with time",
-            Self::ProcessForceMemory => "that force returns to its mean",
             Self::ColouredNoise => "errors of the readings are alike from sample to sample",
-            Self::StampJitter => "the time stamps err at random",
-            Self::SwitchJitter => "the command acts at instants that err at random",
         }
     }
 }

@@ -258,14 +258,12 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
         ("quadratic drag beta_quadratic", reported.drag.has_quadratic().then_some(reported.beta_quadratic), &quadratic),
         ("cubic drag beta_cubic", reported.beta_cubic, &cubic),
         ("one-sidedness of drag skew", reported.skew, &one),
-        ("Coulomb friction coulomb", reported.coulomb, &force),
         ("drag that follows late memory", reported.memory, &beta),
         ("its time constant", reported.memory_s, &second),
         ("restoring force stiffness", reported.stiffness, &stiffness),
         ("delay", Some(reported.delay_s), &second),
         ("lag of the actuator", reported.lag_s, &second),
         ("ramp of the actuator", reported.ramp_s, &second),
-        ("filter of the sensor", reported.filter_s, &second),
     ];
     let shared = named.into_iter().filter_map(|(name, estimate, unit)| Some((name.to_owned(), estimate?, unit)));
     let deltas = found.sources().iter().zip(&*reported.deltas).map(|(source, delta)| match found.sources().len() {

@@ -33,16 +33,14 @@ const PLAIN_LOG_ODDS: f64 = 0.25;
 const IDLE: f64 = 1.0;
 const IDLE_STRUCTURE: f64 = 0.25;
 /// The structures meant.
-const SUBTLE: [Parameter; 9] = [
+const SUBTLE: [Parameter; 7] = [
     Parameter::Stiffness,
     Parameter::CubicDrag,
     Parameter::Skew,
-    Parameter::Coulomb,
     Parameter::Memory,
     Parameter::MemoryS,
     Parameter::LagS,
     Parameter::RampS,
-    Parameter::FilterS,
 ];
 
 /// Covariance of the structural parameters, zero where not estimated.

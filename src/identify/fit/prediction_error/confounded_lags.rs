@@ -1,15 +1,11 @@
-//! Confounded lags: a delay, a lag, a limited rate and a filter of the sensor shift the phase alike, and the first of them that joins
+//! Confounded lags: a delay, a lag and a limited rate shift the phase alike, and the first of them that joins
 //! need not be the one at work. Hence models with each single lag and each pair share the total lag found.
 
 use super::model::{Parameter, VehicleModel};
 use crate::identify::answer::Term;
 
 /// The lag parameters apart from the delay, with the mean lag per unit of each.
-const LATE: [(Term, Parameter, f64); 3] = [
-    (Term::Lag, Parameter::LagS, 1.0),
-    (Term::RateLimit, Parameter::RampS, 0.5),
-    (Term::SensorFilter, Parameter::FilterS, 1.0),
-];
+const LATE: [(Term, Parameter, f64); 2] = [(Term::Lag, Parameter::LagS, 1.0), (Term::RateLimit, Parameter::RampS, 0.5)];
 
 /// Total lag in addition to the delay, in s.
 fn total_lag_s(model: &VehicleModel) -> f64 {
@@ -18,7 +14,7 @@ fn total_lag_s(model: &VehicleModel) -> f64 {
 
 /// The terms that lag: a rate is limited only where the command is switched.
 pub(super) fn terms(switched: bool) -> Vec<Term> {
-    let mut terms = vec![Term::Lag, Term::SensorFilter];
+    let mut terms = vec![Term::Lag];
     terms.extend(switched.then_some(Term::RateLimit));
     terms
 }

@@ -1,8 +1,7 @@
 //! Extended Kalman filter in continuous and discrete time (Jazwinski 1970, chapter 8): predicts each reading from those
 //! before it. The estimate maximises the innovations' likelihood; its derivatives are carried along.
 //!
-//! States are position, velocity, process force and coloured error of the reading, the filtered position where the sensor
-//! filters, and the late speed where drag follows it. The derivatives with respect to
+//! States are position, velocity, process force and coloured error of the reading, and the late speed where drag follows it. The derivatives with respect to
 //! structural parameters are those of the predictor with the gain as it is (Ljung 1999, section 10.2: what a change of the
 //! gain adds has expectation zero); with respect to the noise they are complete for the motion as linearised.
 
@@ -17,7 +16,7 @@ use super::motion::{Dynamics, Point};
 use super::observations::Observations;
 use driven::Drives;
 pub(super) use pass::{FilterPass, Innovation, Score};
-use transition::{FILTERED, LATE, LateSpeed, LowPass, Square, Transition, Vector, add};
+use transition::{LATE, LateSpeed, LowPass, Square, Transition, Vector, add};
 
 /// Parts of the record whose scores are kept apart.
 pub(super) const PARTS: usize = 8;
@@ -32,27 +31,19 @@ const SLOWEST_RATE: f64 = 1e-12;
 const MOST_SUBSTEPS: f64 = 1e3;
 /// Innovations that leave all bounds, in ranges of the output.
 const BOUNDS: f64 = 1e3;
-/// Standard deviation of the filtered position where the record begins, in ranges of the output.
-const UNKNOWN_PATH: f64 = 0.1;
-/// The same of the late speed, in highest speeds.
+/// Standard deviation of the late speed where the record begins, in highest speeds.
 const UNKNOWN_SPEED: f64 = 0.5;
 /// A turn within this part of a step from its ends does not divide it.
 const TURN_INSIDE: f64 = 0.02;
 /// Decay over a step below which a coloured error is a random walk: the next term is half of it.
 const SLOW_DECAY: f64 = 1e-6;
 
-/// Speed within which Coulomb friction changes its sign, in parts of the highest.
-const CREEP: f64 = 0.04;
-
 /// The noise of the model as sizes.
 struct NoiseSizes {
     white: f64,
     force: f64,
-    force_rate: f64,
     colour: f64,
     colour_rate: f64,
-    stamp: f64,
-    switch: f64,
     tracking: f64,
 }
 
@@ -61,11 +52,8 @@ impl NoiseSizes {
         Self {
             white: model.size(NoiseParameter::White),
             force: model.size(NoiseParameter::Force),
-            force_rate: model.size(NoiseParameter::ForceRate),
             colour: model.size(NoiseParameter::Colour),
             colour_rate: model.size(NoiseParameter::ColourRate),
-            stamp: model.size(NoiseParameter::StampJitter),
-            switch: model.size(NoiseParameter::SwitchJitter),
             tracking: model.size(NoiseParameter::Tracking),
         }
     }
@@ -82,8 +70,6 @@ struct Filter<'a, const N: usize> {
     dynamics: Dynamics,
     sizes: NoiseSizes,
     stochastic: bool,
-    /// Place of the state that is read.
-    read: usize,
     state: Vector<N>,
     covariance: Square<N>,
     sensitivities: Sensitivities<N>,
@@ -103,8 +89,6 @@ pub(super) enum Evaluation {
 /// Runs through the record; `None` where the motion diverges.
 pub(super) fn run(observations: &Observations, model: &VehicleModel, wanted: Evaluation) -> Option<FilterPass> {
     if model.value(Parameter::MemoryS) > 0.0 {
-        run_with::<6>(observations, model, wanted)
-    } else if model.value(Parameter::FilterS) > 0.0 {
         run_with::<5>(observations, model, wanted)
     } else {
         run_with::<4>(observations, model, wanted)
@@ -119,8 +103,7 @@ fn run_with<const N: usize>(
     let derivatives = wanted != Evaluation::Likelihood;
     let actuator = Actuator::new(&observations.pieces, model, observations.range);
     let late = model.value(Parameter::DelayS) + model.value(Parameter::LagS) + 0.5 * model.value(Parameter::RampS);
-    let uncertain = model.has_noise(NoiseParameter::SwitchJitter);
-    let kicks = observations.kicks.iter().filter(|kick| uncertain || kick.variance_s2 > 0.0);
+    let kicks = observations.kicks.iter().filter(|kick| kick.variance_s2 > 0.0);
     let kicks =
         kicks.map(|kick| (kick.at_s + late, IntegrationStop::Kick { jump: kick.jump, variance_s2: kick.variance_s2 }));
     let first = observations.first;
@@ -217,24 +200,17 @@ impl<'a, const N: usize> Filter<'a, N> {
             quadratic: model.value(Parameter::QuadraticDrag),
             cubic: model.value(Parameter::CubicDrag),
             skew: model.value(Parameter::Skew),
-            coulomb: model.value(Parameter::Coulomb),
-            creep: CREEP * observations.fastest,
             stiffness: model.value(Parameter::Stiffness),
         };
         let sizes = NoiseSizes::of(model);
         let kicked = observations.kicks.iter().any(|kick| kick.variance_s2 > 0.0);
-        let random = sizes.force + sizes.colour + sizes.tracking + sizes.switch > 0.0;
+        let random = sizes.force + sizes.colour + sizes.tracking > 0.0;
         let mut covariance = [[0.0; N]; N];
         // The disturbance is the process force's value where the record begins.
         let unseen_s = observations.time_s[observations.first] - observations.time_s[0];
         covariance[2][2] = sizes.force * unseen_s;
         let forgotten = sizes.colour_rate + 1.0 / observations.duration_s();
         covariance[3][3] = 0.5 * sizes.colour / forgotten;
-        let read = if N > FILTERED && model.value(Parameter::FilterS) > 0.0 { FILTERED } else { 0 };
-        if read == FILTERED {
-            // The filtered position before the record is unknown: deviation [`UNKNOWN_PATH`] times the span.
-            covariance[FILTERED][FILTERED] = (UNKNOWN_PATH * observations.span).powi(2);
-        }
         if N > LATE {
             // The velocity before the record is unknown.
             covariance[LATE][LATE] = (UNKNOWN_SPEED * observations.fastest).powi(2);
@@ -247,14 +223,6 @@ impl<'a, const N: usize> Filter<'a, N> {
                     Parameter::Position => column[0] = 1.0,
                     Parameter::Velocity => column[1] = 1.0,
                     _ => {}
-                }
-                if read == FILTERED {
-                    column[FILTERED] = match parameter {
-                        Parameter::Position => 1.0,
-                        Parameter::Velocity => -model.value(Parameter::FilterS),
-                        Parameter::FilterS => -model.value(Parameter::Velocity),
-                        _ => 0.0,
-                    };
                 }
                 (parameter, column)
             }));
@@ -271,16 +239,11 @@ impl<'a, const N: usize> Filter<'a, N> {
         }
         let mut state = [0.0; N];
         (state[0], state[1]) = (model.value(Parameter::Position), model.value(Parameter::Velocity));
-        if read == FILTERED {
-            // As if it had moved evenly before.
-            state[FILTERED] = state[0] - model.value(Parameter::FilterS) * state[1];
-        }
         Self {
             model,
             dynamics,
             sizes,
-            stochastic: kicked || random || N > FILTERED,
-            read,
+            stochastic: kicked || random || N > LATE,
             state,
             covariance,
             sensitivities,
@@ -317,39 +280,26 @@ impl<'a, const N: usize> Filter<'a, N> {
         let pushed = core::array::from_fn(|k| forces[k].value + offset - late_force(k));
         let step = self.dynamics.step((begin.position, begin.velocity), pushed, h_s);
         let mut transition = Transition::new(&step, alpha);
-        transition.force = libm::exp(-self.sizes.force_rate * h_s);
         transition.colour = libm::exp(-self.sizes.colour_rate * h_s);
         self.state[..4].copy_from_slice(&[
             step.end.position,
             step.end.velocity,
-            transition.force * before[2],
+            before[2],
             transition.colour * before[3],
         ]);
-        let positions = [before[0], step.middle.position, step.end.position];
         let velocities = [before[1], step.middle.velocity, step.end.velocity];
-        let sensor = (self.read == FILTERED).then(|| LowPass::new(self.model.value(Parameter::FilterS), h_s));
-        if let Some(sensor) = &sensor {
-            transition.filter(sensor, &step, h_s, alpha);
-            self.state[FILTERED] = sensor.after(before[FILTERED], &positions);
-        }
         let wake = late.map(|late| (late, LowPass::new(memory_s, h_s)));
         if let Some((late, low_pass)) = &wake {
             transition.remember(late, low_pass, &step, memory / alpha);
             self.state[LATE] = low_pass.after(before[LATE], &velocities);
         }
         let drives =
-            Drives { dynamics: &self.dynamics, step: &step, begin: &begin, forces: &forces, late, memory, h_s };
+            Drives { dynamics: &self.dynamics, step: &step, begin: &begin, forces: &forces, late, memory };
         for (parameter, column) in &mut self.sensitivities.structure {
-            let [end, velocity, middle] = drives.by(*parameter);
+            let [end, velocity] = drives.by(*parameter);
             *column = transition.apply(column);
             column[0] += end;
             column[1] += velocity;
-            if let Some(sensor) = &sensor {
-                column[FILTERED] += sensor.weights[1] * middle + sensor.weights[2] * end;
-                if *parameter == Parameter::FilterS {
-                    column[FILTERED] += sensor.after_by_time(before[FILTERED], &positions);
-                }
-            }
             if let Some((_, low_pass)) = &wake {
                 column[LATE] += transition.late[2] * velocity;
                 if *parameter == Parameter::MemoryS {
@@ -365,7 +315,7 @@ impl<'a, const N: usize> Filter<'a, N> {
     /// Covariance over a step, with its sensitivities.
     fn spread(&mut self, transition: &Transition, before: &Vector<N>, h_s: f64) {
         let alpha = self.dynamics.alpha;
-        let NoiseSizes { force, force_rate, colour, colour_rate, tracking, .. } = self.sizes;
+        let NoiseSizes { force, colour, colour_rate, tracking, .. } = self.sizes;
         // A force that walks at random, integrated twice; drag within a step is neglected.
         let walk = |intensity: f64| {
             let (h2, h3) = (h_s * h_s, h_s * h_s * h_s);
@@ -402,23 +352,18 @@ impl<'a, const N: usize> Filter<'a, N> {
                 NoiseParameter::Force => add(derivative, &walk(force)),
                 NoiseParameter::Tracking => add(derivative, &white(tracking)),
                 NoiseParameter::Colour => derivative[3][3] += gained,
-                NoiseParameter::ForceRate | NoiseParameter::ColourRate => {
-                    let (state, rate, kept) = if *noise == NoiseParameter::ForceRate {
-                        (2, force_rate, transition.force)
-                    } else {
-                        derivative[3][3] += gained_by_rate;
-                        (3, colour_rate, transition.colour)
-                    };
-                    let by_log = -h_s * rate * kept;
-                    column[state] += by_log * before[state];
+                NoiseParameter::ColourRate => {
+                    derivative[3][3] += gained_by_rate;
+                    let by_log = -h_s * colour_rate * transition.colour;
+                    column[3] += by_log * before[3];
                     // F P dF' and its transpose.
-                    let along = transition.apply(&covariance[state]);
+                    let along = transition.apply(&covariance[3]);
                     for (other, value) in along.iter().enumerate() {
-                        derivative[state][other] += by_log * value;
-                        derivative[other][state] += by_log * value;
+                        derivative[3][other] += by_log * value;
+                        derivative[other][3] += by_log * value;
                     }
                 }
-                NoiseParameter::White | NoiseParameter::StampJitter | NoiseParameter::SwitchJitter => {}
+                NoiseParameter::White => {}
             }
         }
         self.covariance = transition.turn(&covariance);
@@ -444,20 +389,12 @@ impl<'a, const N: usize> Filter<'a, N> {
     /// position by `jump d^2 / (2 alpha)`, of given mean and of the variance of uniform d.
     fn kick(&mut self, jump: f64, variance_s2: f64) {
         let per_second = jump / self.dynamics.alpha;
-        let variance = variance_s2 + self.sizes.switch;
-        self.covariance[1][1] += per_second * per_second * variance;
-        self.state[0] += 0.5 * per_second * variance;
-        self.covariance[0][0] += 0.2 * (per_second * variance).powi(2);
-        for (noise, column, derivative) in &mut self.sensitivities.noise {
-            if *noise == NoiseParameter::SwitchJitter {
-                derivative[1][1] += per_second * per_second * self.sizes.switch;
-                column[0] += 0.5 * per_second * self.sizes.switch;
-                derivative[0][0] += 0.4 * per_second * per_second * variance * self.sizes.switch;
-            }
-        }
+        self.covariance[1][1] += per_second * per_second * variance_s2;
+        self.state[0] += 0.5 * per_second * variance_s2;
+        self.covariance[0][0] += 0.2 * (per_second * variance_s2).powi(2);
         for (parameter, column) in &mut self.sensitivities.structure {
             if *parameter == Parameter::Alpha {
-                column[0] -= 0.5 * per_second * variance / self.dynamics.alpha;
+                column[0] -= 0.5 * per_second * variance_s2 / self.dynamics.alpha;
             }
         }
     }

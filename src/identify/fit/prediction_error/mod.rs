@@ -2,11 +2,11 @@
 //! parameters of motion and disturbances that maximise the likelihood of its innovations.
 //!
 //! The vehicle is
-//! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + memory s + k x = a(t - T_d) + delta + w(t)`,
+//! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x'' + memory s + k x = a(t - T_d) + delta + w(t)`,
 //! `tau a' = u - a`, `memory_s s' = x' - s`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970;
 //! Kristensen, Madsen and Jorgensen 2004; Ljung 1999, chapter 7). Inertia, drag, disturbance and white noise are always there. Terms are a lag, a limited rate, a restoring force, cubic
-//! and one-sided drag, Coulomb friction, fluid memory, a filter of the sensor and a delay that differs from the given delay; a process force,
-//! coloured noise and jitter. Each is tried, and joins where the record is enough likelier for it. Intervals are those of all models tried, averaged, so
+//! and one-sided drag, fluid memory and a delay that differs from the given delay; a process force and
+//! coloured noise. Each is tried, and joins where the record is enough likelier for it. Intervals are those of all models tried, averaged, so
 //! that an interval allows for the choice among them.
 //! Where readings are rounded, their errors belong together as far as the motion says, and the interval follows.
 //!
@@ -218,13 +218,13 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
             [Some(beta), Some(beta_quadratic), beta_cubic],
         ),
         skew: present(Parameter::Skew),
-        coulomb: present(Parameter::Coulomb).map(not_negative),
+        coulomb: None,
         stiffness: present(Parameter::Stiffness),
         memory: present(Parameter::Memory),
         memory_s: present(Parameter::MemoryS).map(not_negative),
         lag_s: present(Parameter::LagS).map(not_negative),
         ramp_s: present(Parameter::RampS).map(not_negative),
-        filter_s: present(Parameter::FilterS).map(not_negative),
+        filter_s: None,
         deltas: [estimate(Parameter::Disturbance)].into_iter().collect(),
         delay_s: not_negative(estimate(Parameter::DelayS)),
         budget: Vec::new(),
@@ -250,8 +250,8 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
 
 /// The answer with the values of one model, within the intervals of all.
 ///
-/// Means over the models, each parameter by itself, are the parameters of no model: of one with Coulomb friction and one without, they have
-/// the lesser drag that the friction makes up for, and no friction.
+/// Means over the models, each parameter by itself, are the parameters of no model: of one with cubic drag and one without, they have
+/// the lesser quadratic drag that the cubic drag makes up for, and no cubic drag.
 fn belonging(means: &Reported, model: &VehicleModel) -> Reported {
     let of = |parameter: Parameter, estimate: Estimate| {
         let value = model.value(parameter);
@@ -264,13 +264,11 @@ fn belonging(means: &Reported, model: &VehicleModel) -> Reported {
         beta_quadratic: of(Parameter::QuadraticDrag, means.beta_quadratic),
         beta_cubic: term(Parameter::CubicDrag, means.beta_cubic),
         skew: term(Parameter::Skew, means.skew),
-        coulomb: term(Parameter::Coulomb, means.coulomb),
         stiffness: term(Parameter::Stiffness, means.stiffness),
         memory: term(Parameter::Memory, means.memory),
         memory_s: term(Parameter::MemoryS, means.memory_s),
         lag_s: term(Parameter::LagS, means.lag_s),
         ramp_s: term(Parameter::RampS, means.ramp_s),
-        filter_s: term(Parameter::FilterS, means.filter_s),
         delay_s: of(Parameter::DelayS, means.delay_s),
         deltas: means.deltas.iter().map(|delta| of(Parameter::Disturbance, *delta)).collect(),
         ..means.clone()

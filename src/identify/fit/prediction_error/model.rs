@@ -4,8 +4,8 @@ use crate::identify::answer::DragLaw;
 use crate::identify::signal::{Clock, SwitchingInstant};
 
 /// Structural parameters of
-/// `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + memory s + k x = a(t - T_d) + delta + w(t)`,
-/// `tau a' = u - a`, `memory_s s' = x' - s`, `filter y' = x - y`, and the state in which the record begins.
+/// `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x'' + memory s + k x = a(t - T_d) + delta + w(t)`,
+/// `tau a' = u - a`, `memory_s s' = x' - s`, and the state in which the record begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(usize)]
 pub enum Parameter {
@@ -19,8 +19,6 @@ pub enum Parameter {
     CubicDrag,
     /// Part by which drag is larger to the positive side than the mean of both sides, and smaller to the negative one.
     Skew,
-    /// Coulomb friction: a force of constant size against the motion.
-    Coulomb,
     /// Restoring force per unit of output, k.
     Stiffness,
     /// Factor of the drag that follows the speed late, of either sign: the water that the vehicle moved before still moves.
@@ -35,8 +33,6 @@ pub enum Parameter {
     LagS,
     /// Time that an actuator of limited rate takes over the command's whole range, in s.
     RampS,
-    /// Time constant of the sensor's filter, in s.
-    FilterS,
     /// Output where the record begins.
     Position,
     /// Its rate there, per s.
@@ -45,7 +41,7 @@ pub enum Parameter {
 
 impl Parameter {
     /// Number of structural parameters.
-    pub const COUNT: usize = 16;
+    pub const COUNT: usize = 14;
     /// All of them, in the order of their numbers.
     pub const ALL: [Self; Self::COUNT] = [
         Self::Alpha,
@@ -53,7 +49,6 @@ impl Parameter {
         Self::QuadraticDrag,
         Self::CubicDrag,
         Self::Skew,
-        Self::Coulomb,
         Self::Stiffness,
         Self::Memory,
         Self::MemoryS,
@@ -61,7 +56,6 @@ impl Parameter {
         Self::DelayS,
         Self::LagS,
         Self::RampS,
-        Self::FilterS,
         Self::Position,
         Self::Velocity,
     ];
@@ -73,32 +67,23 @@ impl Parameter {
 pub(super) enum NoiseParameter {
     /// Variance of the white error of a reading, rounding included.
     White,
-    /// Intensity of the process force: variance of its change in one second.
+    /// Intensity of the process force, a random walk: variance of its change in one second.
     Force,
-    /// Rate at which the process force is forgotten, per s (Ornstein-Uhlenbeck); without it a random walk.
-    ForceRate,
     /// Intensity of the coloured error of a reading.
     Colour,
     /// Rate at which that error is forgotten, per s.
     ColourRate,
-    /// Variance of the time stamps, in s^2.
-    StampJitter,
-    /// Variance of the instants of switching, in s^2.
-    SwitchJitter,
     /// Intensity of a white force, as variance of the velocity gained in one second: lets a poor start follow the record.
     Tracking,
 }
 
 impl NoiseParameter {
-    pub(super) const COUNT: usize = 8;
+    pub(super) const COUNT: usize = 5;
     pub(super) const ALL: [Self; Self::COUNT] = [
         Self::White,
         Self::Force,
-        Self::ForceRate,
         Self::Colour,
         Self::ColourRate,
-        Self::StampJitter,
-        Self::SwitchJitter,
         Self::Tracking,
     ];
 }

@@ -8,9 +8,6 @@ pub(super) struct Dynamics {
     pub(super) quadratic: f64,
     pub(super) cubic: f64,
     pub(super) skew: f64,
-    pub(super) coulomb: f64,
-    /// Speed within which Coulomb friction changes its sign.
-    pub(super) creep: f64,
     pub(super) stiffness: f64,
 }
 
@@ -30,8 +27,6 @@ pub(super) struct MotionStep {
     pub(super) middle: Point,
     /// Transition matrix of position and velocity over the step.
     pub(super) transition: [[f64; 2]; 2],
-    /// The first row of the transition matrix half-way.
-    pub(super) half: [f64; 2],
     /// Weights of the force per inertia at the beginning and half-way in position and velocity at the end, times
     /// Simpson's weights; at the end it makes `end_weight` of velocity.
     pub(super) begin_weight: [f64; 2],
@@ -41,9 +36,8 @@ pub(super) struct MotionStep {
 
 impl Dynamics {
     pub(super) fn acceleration(&self, position: f64, velocity: f64, force: f64) -> f64 {
-        let friction = if self.coulomb == 0.0 { 0.0 } else { self.coulomb * self.sense(velocity) };
         let drag = (1.0 + self.skew * velocity.signum()) * self.even_drag(velocity);
-        (force - drag - friction - self.stiffness * position) / self.alpha
+        (force - drag - self.stiffness * position) / self.alpha
     }
 
     /// Drag alike to both sides.
@@ -51,26 +45,19 @@ impl Dynamics {
         (self.linear + (self.quadratic + self.cubic * velocity.abs()) * velocity.abs()) * velocity
     }
 
-    /// The sign of a velocity, smooth across zero.
-    pub(super) fn sense(&self, velocity: f64) -> f64 {
-        libm::tanh(velocity / self.creep)
-    }
-
     /// Derivative of the drag with respect to velocity, over the inertia.
     fn damping(&self, velocity: f64) -> f64 {
         let speed = velocity.abs();
         let drag = (1.0 + self.skew * velocity.signum())
             * (self.linear + (2.0 * self.quadratic + 3.0 * self.cubic * speed) * speed);
-        let friction =
-            if self.coulomb == 0.0 { 0.0 } else { self.coulomb * (1.0 - self.sense(velocity).powi(2)) / self.creep };
-        (drag + friction) / self.alpha
+        drag / self.alpha
     }
 
     /// The fastest rate of the motion up to a speed, per s.
     pub(super) fn rate(&self, speed: f64) -> f64 {
         let drag = (1.0 + self.skew.abs())
             * (self.linear.abs() + (2.0 * self.quadratic.abs() + 3.0 * self.cubic.abs() * speed) * speed);
-        (drag + self.coulomb.abs() / self.creep) / self.alpha + (self.stiffness.abs() / self.alpha).sqrt()
+        drag / self.alpha + (self.stiffness.abs() / self.alpha).sqrt()
     }
 
     /// Advances by `h_s` under the forces at the beginning, half-way and at the end (Runge-Kutta of order four).
@@ -102,7 +89,6 @@ impl Dynamics {
             end: Point { position, velocity, acceleration },
             middle,
             transition,
-            half: first[0],
             begin_weight: [h_s / 6.0 * transition[0][1], h_s / 6.0 * transition[1][1]],
             middle_weight: [h_s / 1.5 * second[0][1], h_s / 1.5 * second[1][1]],
             end_weight: h_s / 6.0,

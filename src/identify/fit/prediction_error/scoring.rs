@@ -46,10 +46,9 @@ fn bounds(parameter: Parameter, observations: &Observations) -> (f64, f64) {
     match parameter {
         Parameter::Alpha => (1e-9 * observations.range * half_period * half_period / observations.span, f64::INFINITY),
         Parameter::DelayS => (0.0, half_period),
-        Parameter::LagS | Parameter::FilterS => (0.02 * interval, 2.0 * half_period),
+        Parameter::LagS => (0.02 * interval, 2.0 * half_period),
         Parameter::MemoryS => (0.1 * half_period, 5.0 * half_period),
         Parameter::Skew => (-0.9, 0.9),
-        Parameter::Coulomb => (0.0, observations.range),
         Parameter::RampS => (0.05 * interval, 2.0 * half_period),
         _ => (f64::NEG_INFINITY, f64::INFINITY),
     }
@@ -62,12 +61,8 @@ fn noise_bounds(noise: NoiseParameter, observations: &Observations) -> (f64, f64
     let (low, high) = match noise {
         NoiseParameter::White => ((FINEST * span).powi(2), span * span),
         NoiseParameter::Force => (1e-10 * force * force / half_period, 10.0 * force * force / half_period),
-        NoiseParameter::ForceRate => (0.02 / observations.duration_s(), 3.0 / interval),
         NoiseParameter::Colour => (1e-12 * span * span / half_period, span * span / interval),
         NoiseParameter::ColourRate => (0.02 / observations.duration_s(), 3.0 / interval),
-        NoiseParameter::StampJitter | NoiseParameter::SwitchJitter => {
-            (1e-8 * interval * interval, 4.0 * interval * interval)
-        }
         NoiseParameter::Tracking => {
             (1e-10 * (span / half_period).powi(2) / half_period, 100.0 * (span / half_period).powi(2) / half_period)
         }

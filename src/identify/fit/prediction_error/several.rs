@@ -171,11 +171,11 @@ impl Several {
             skew: own(&|r| r.skew),
             memory: together.force(|r| r.memory),
             memory_s: own(&|r| r.memory_s),
-            coulomb: together.force(|r| r.coulomb),
+            coulomb: None,
             stiffness: together.force(|r| r.stiffness),
             lag_s: own(&|r| r.lag_s),
             ramp_s: own(&|r| r.ramp_s),
-            filter_s: own(&|r| r.filter_s),
+            filter_s: None,
             deltas: together
                 .parts
                 .iter()

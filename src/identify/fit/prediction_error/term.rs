@@ -13,9 +13,7 @@ impl Term {
             Self::Stiffness => &[Parameter::Stiffness],
             Self::CubicDrag => &[Parameter::CubicDrag],
             Self::SkewDrag => &[Parameter::Skew],
-            Self::Coulomb => &[Parameter::Coulomb],
             Self::FluidMemory => &[Parameter::Memory, Parameter::MemoryS],
-            Self::SensorFilter => &[Parameter::FilterS],
             Self::Delay => &[Parameter::DelayS],
             _ => &[],
         }
@@ -29,10 +27,7 @@ impl Term {
     fn noises(self) -> &'static [NoiseParameter] {
         match self {
             Self::ProcessForce => &[NoiseParameter::Force],
-            Self::ProcessForceMemory => &[NoiseParameter::ForceRate],
             Self::ColouredNoise => &[NoiseParameter::Colour, NoiseParameter::ColourRate],
-            Self::StampJitter => &[NoiseParameter::StampJitter],
-            Self::SwitchJitter => &[NoiseParameter::SwitchJitter],
             _ => &[],
         }
     }
@@ -51,8 +46,7 @@ impl Term {
     pub(super) fn applies(self, model: &VehicleModel, observations: &Observations) -> bool {
         !self.is_in(model)
             && match self {
-                Self::RateLimit | Self::SwitchJitter => observations.switched,
-                Self::ProcessForceMemory => Self::ProcessForce.is_in(model),
+                Self::RateLimit => observations.switched,
                 // A force that changes with time takes in what late drag does.
                 Self::FluidMemory => !Self::ProcessForce.is_in(model),
                 _ => true,
@@ -70,7 +64,7 @@ impl Term {
         for &parameter in self.parameters() {
             // The mean delay stays.
             let late = match parameter {
-                Parameter::LagS | Parameter::FilterS => model.value(parameter),
+                Parameter::LagS => model.value(parameter),
                 Parameter::RampS => 0.5 * model.value(Parameter::RampS),
                 _ => 0.0,
             };
@@ -79,8 +73,7 @@ impl Term {
             }
             model.set(parameter, 0.0, false);
         }
-        let dependent: &[NoiseParameter] = if self == Self::ProcessForce { &[NoiseParameter::ForceRate] } else { &[] };
-        for noise in self.noises().iter().chain(dependent) {
+        for noise in self.noises() {
             model.set_noise(*noise, 0.0, false);
         }
         model
@@ -107,7 +100,7 @@ impl Term {
         };
         let (interval, half_period) = (observations.interval_s, observations.half_period_s);
         match self {
-            Self::Stiffness | Self::CubicDrag | Self::SkewDrag | Self::Coulomb => {
+            Self::Stiffness | Self::CubicDrag | Self::SkewDrag => {
                 self.parameters().iter().map(|parameter| with(*parameter, 0.0)).collect()
             }
             Self::FluidMemory => {
@@ -119,12 +112,9 @@ impl Term {
                 [0.15, 0.5, 1.5].map(slow).to_vec()
             }
             Self::Delay => vec![with(Parameter::DelayS, model.value(Parameter::DelayS))],
-            Self::Lag | Self::RateLimit | Self::SensorFilter => {
-                let (parameter, mean) = match self {
-                    Self::RateLimit => (Parameter::RampS, 0.5),
-                    Self::Lag => (Parameter::LagS, 1.0),
-                    _ => (Parameter::FilterS, 1.0),
-                };
+            Self::Lag | Self::RateLimit => {
+                let (parameter, mean) =
+                    if self == Self::RateLimit { (Parameter::RampS, 0.5) } else { (Parameter::LagS, 1.0) };
                 let delay_s = model.value(Parameter::DelayS);
                 let late = |part: f64| {
                     // At a known delay the lag comes on top; else it takes the place of a part of the delay.
@@ -142,15 +132,6 @@ impl Term {
                 let unit = observations.range * observations.range / half_period;
                 [1e-6, 1e-5, 1e-4, 1e-3, 1e-2].map(|part| noisy(&[(NoiseParameter::Force, part * unit)])).to_vec()
             }
-            Self::ProcessForceMemory => [0.1, 0.5, 2.0]
-                .map(|rate| {
-                    let (rate, force) = (rate / half_period, model.size(NoiseParameter::Force));
-                    noisy(&[
-                        (NoiseParameter::ForceRate, rate),
-                        (NoiseParameter::Force, force * (1.0 + rate * half_period)),
-                    ])
-                })
-                .to_vec(),
             Self::ColouredNoise => {
                 let white = model.size(NoiseParameter::White);
                 let times = [2.0 * interval, 8.0 * interval, 40.0 * interval, observations.duration_s()];
@@ -163,12 +144,6 @@ impl Term {
                 };
                 times.iter().flat_map(|time| [0.15, 0.5, 0.95].map(|part| start(*time, part))).collect()
             }
-            Self::StampJitter => {
-                [0.03, 0.1, 0.3].map(|part| noisy(&[(NoiseParameter::StampJitter, (part * interval).powi(2))])).to_vec()
-            }
-            Self::SwitchJitter => [0.05, 0.2, 0.6]
-                .map(|part| noisy(&[(NoiseParameter::SwitchJitter, (part * interval).powi(2))]))
-                .to_vec(),
         }
     }
 }

@@ -14,16 +14,15 @@ pub(super) struct Drives<'a> {
     pub(super) late: Option<LateSpeed>,
     /// Factor of the drag by the late speed.
     pub(super) memory: f64,
-    pub(super) h_s: f64,
 }
 
 impl Drives<'_> {
-    /// Derivatives, by the parameter, of position and velocity at the end of the step, and of the position half-way.
-    pub(super) fn by(&self, parameter: Parameter) -> [f64; 3] {
-        if matches!(parameter, Parameter::FilterS | Parameter::Position | Parameter::Velocity) {
-            return [0.0; 3];
+    /// Derivatives, by the parameter, of position and velocity at the end of the step.
+    pub(super) fn by(&self, parameter: Parameter) -> [f64; 2] {
+        if matches!(parameter, Parameter::Position | Parameter::Velocity) {
+            return [0.0; 2];
         }
-        let Self { dynamics, step, begin, forces, late, memory, h_s } = self;
+        let Self { dynamics, step, begin, forces, late, memory } = self;
         let late = |k: usize| late.map_or((0.0, 0.0), |late| (late.values[k], late.by_time[k]));
         let by = |point: &Point, force: &Force, (late, late_by_time): (f64, f64)| {
             let side = 1.0 + dynamics.skew * point.velocity.signum();
@@ -33,7 +32,6 @@ impl Drives<'_> {
                 Parameter::QuadraticDrag => -side * point.velocity * point.velocity.abs(),
                 Parameter::CubicDrag => -side * point.velocity.powi(3),
                 Parameter::Skew => -dynamics.even_drag(point.velocity.abs()),
-                Parameter::Coulomb => -dynamics.sense(point.velocity),
                 Parameter::Stiffness => -point.position,
                 Parameter::Memory => -late,
                 Parameter::MemoryS => -memory * late_by_time,
@@ -41,7 +39,7 @@ impl Drives<'_> {
                 Parameter::DelayS => force.by_delay,
                 Parameter::LagS => force.by_lag,
                 Parameter::RampS => force.by_ramp,
-                Parameter::FilterS | Parameter::Position | Parameter::Velocity => 0.0,
+                Parameter::Position | Parameter::Velocity => 0.0,
             }
         };
         let per_alpha = 1.0 / dynamics.alpha;
@@ -50,7 +48,6 @@ impl Drives<'_> {
         [
             step.begin_weight[0] * first + step.middle_weight[0] * second,
             step.begin_weight[1] * first + step.middle_weight[1] * second + step.end_weight * third,
-            0.25 * h_s * h_s * (first / 3.0 + second / 6.0),
         ]
     }
 }

@@ -10,25 +10,23 @@ impl<const N: usize> Filter<'_, N> {
     pub(super) fn slopes(&self) -> [f64; STRUCTURE] {
         let mut slopes = [0.0; STRUCTURE];
         for (parameter, column) in &self.sensitivities.structure {
-            slopes[*parameter as usize] = -(column[self.read] + column[3]);
+            slopes[*parameter as usize] = -(column[0] + column[3]);
         }
         slopes
     }
 
     /// Takes in a reading; adds its share of the score where there are sensitivities.
     pub(super) fn observe(&mut self, reading: f64, weight: f64, score: &mut Score) -> Innovation {
-        let read = self.read;
-        let error = reading - self.state[read] - self.state[3];
-        let stamp = self.sizes.stamp * self.state[1] * self.state[1];
+        let error = reading - self.state[0] - self.state[3];
         let p = &self.covariance;
-        let seen: Vector<N> = core::array::from_fn(|row| p[row][read] + p[row][3]);
-        let variance = seen[read] + seen[3] + self.sizes.white + stamp;
+        let seen: Vector<N> = core::array::from_fn(|row| p[row][0] + p[row][3]);
+        let variance = seen[0] + seen[3] + self.sizes.white;
         let gain = seen.map(|value| value / variance);
         let structure = &mut self.sensitivities.structure;
         let mut by_structure = [(0, 0.0); STRUCTURE];
         let slopes = &mut by_structure[..structure.len()];
         for (slope, (parameter, column)) in slopes.iter_mut().zip(structure.iter()) {
-            *slope = (*parameter as usize, -(column[read] + column[3]));
+            *slope = (*parameter as usize, -(column[0] + column[3]));
         }
         let precision = weight / variance;
         for (index, (i, slope)) in slopes.iter().enumerate() {
@@ -50,15 +48,10 @@ impl<const N: usize> Filter<'_, N> {
         let count = self.sensitivities.noise.len();
         for ((noise, column, derivative), slope) in self.sensitivities.noise.iter_mut().zip(&mut slopes) {
             let d = &*derivative;
-            let seen_by: Vector<N> = core::array::from_fn(|row| d[row][read] + d[row][3]);
-            let direct = match noise {
-                NoiseParameter::White => self.sizes.white,
-                NoiseParameter::StampJitter => stamp,
-                _ => 0.0,
-            };
-            let speed_by = 2.0 * self.sizes.stamp * self.state[1] * column[1];
-            let variance_by = seen_by[read] + seen_by[3] + direct + speed_by;
-            let error_by = -(column[read] + column[3]);
+            let seen_by: Vector<N> = core::array::from_fn(|row| d[row][0] + d[row][3]);
+            let direct = if *noise == NoiseParameter::White { self.sizes.white } else { 0.0 };
+            let variance_by = seen_by[0] + seen_by[3] + direct;
+            let error_by = -(column[0] + column[3]);
             *slope = (*noise as usize, error_by, variance_by);
             for row in 0..N {
                 column[row] += (seen_by[row] - gain[row] * variance_by) / variance * error + gain[row] * error_by;
