@@ -158,7 +158,7 @@ class Identification(Result):
 def _units(units: types.Units) -> dict[str, str]:
     """The unit of each reported parameter, in the output's own."""
     known = {name: str(unit).replace("output", units["output"]) for name, unit in units.items()}
-    times = dict.fromkeys(("delay_s", "lag_s", "ramp_s", "filter_s", "memory_s"), "s")
+    times = dict.fromkeys(("delay_s", "lag_s", "ramp_s", "pause_s", "filter_s", "memory_s"), "s")
     return known | times | {"coulomb": known["delta"], "memory": known["beta"]}
 
 

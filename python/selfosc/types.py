@@ -110,6 +110,7 @@ class Reported(TypedDict):
     stiffness: Interval | None
     lag_s: Interval | None
     ramp_s: Interval | None
+    pause_s: Interval | None
     filter_s: Interval | None
     delta: Interval | None
     """Constant force, command; of the only record."""

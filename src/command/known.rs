@@ -47,7 +47,7 @@ const WRITTEN: &str = "write the file by `selfosc identify LOG --json > RESULT.j
 pub(super) const FIRST_ORDER: &str = "must be above 0; an axis without inertia is of first order, as a speed, a rate or a \
                                       heater is: identify and tune it by `selfosc autotune LOG`";
 /// Times, which are not negative.
-const TIMES: [&str; 5] = ["memory_s", "lag_s", "ramp_s", "filter_s", "delay_s"];
+const TIMES: [&str; 6] = ["memory_s", "lag_s", "ramp_s", "pause_s", "filter_s", "delay_s"];
 
 impl Model {
     /// An axis that is given.

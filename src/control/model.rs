@@ -34,6 +34,8 @@ pub struct AxisModel<T> {
     pub lag_s: T,
     /// Time that an actuator of limited rate takes over the command's range, s.
     pub ramp_s: T,
+    /// Time without thrust after the command changes its sign, s.
+    pub pause_s: T,
     /// Filter of the sensor, s.
     pub filter_s: T,
     /// Constant force, F.
@@ -43,8 +45,8 @@ pub struct AxisModel<T> {
 }
 
 in_order! {
-    pub NAMES[14] of AxisModel: alpha, beta, beta_quadratic, beta_cubic, skew, coulomb, stiffness, memory, memory_s, lag_s, ramp_s,
-    filter_s, delta, delay_s
+    pub NAMES[15] of AxisModel: alpha, beta, beta_quadratic, beta_cubic, skew, coulomb, stiffness, memory, memory_s, lag_s, ramp_s,
+    pause_s, filter_s, delta, delay_s
 }
 
 impl<T> AxisModel<T> {
@@ -66,18 +68,18 @@ impl AxisModel<f64> {
     /// Whether it is a drag axis with delay and constant force, and nothing else.
     #[must_use]
     pub fn is_plain(&self) -> bool {
-        let Self { beta_cubic, skew, coulomb, stiffness, memory, lag_s, ramp_s, filter_s, .. } = *self;
-        [beta_cubic, skew, coulomb, stiffness, memory, lag_s, ramp_s, filter_s].iter().all(|part| *part == 0.0)
+        let Self { beta_cubic, skew, coulomb, stiffness, memory, lag_s, ramp_s, pause_s, filter_s, .. } = *self;
+        [beta_cubic, skew, coulomb, stiffness, memory, lag_s, ramp_s, pause_s, filter_s].iter().all(|part| *part == 0.0)
             && self.beta >= 0.0
     }
 
-    /// The axis that gains are placed for: drag that drives counts as none, and every lag as delay (a ramp as half of itself, the
+    /// The axis that gains are placed for: drag that drives counts as none, and every lag as delay (a ramp or a pause as half of itself, the
     /// delay of the middle of its step).
     ///
     /// # Errors
     /// [`ControlError::Plant`] unless the inertia is above zero.
     pub fn design_axis(&self) -> Result<DragAxis<f64>, ControlError> {
-        let late_s = self.delay_s + self.lag_s + self.filter_s + 0.5 * self.ramp_s;
+        let late_s = self.delay_s + self.lag_s + self.filter_s + 0.5 * (self.ramp_s + self.pause_s);
         let axis = DragAxis::mixed(self.alpha, self.beta.max(0.0), self.beta_quadratic.max(0.0))?;
         Ok(axis.with_disturbance(self.delta)?.with_delay_s(late_s)?)
     }
@@ -136,11 +138,11 @@ impl AxisModel<Interval> {
     }
 
     /// Every linear process that slow signals see where the drag has these slopes, times `1 + skew` to the one side and `1 - skew` to the
-    /// other; a limited rate is a delay of up to half the ramp. Coulomb friction has no slope but at rest, where it holds the axis.
+    /// other; a limited rate is a delay of up to half the ramp, a pause of up to all of it. Coulomb friction has no slope but at rest, where it holds the axis.
     #[must_use]
     pub fn processes(&self, slopes: Interval) -> LinearProcess<Interval> {
         let sides = (Interval::ONE - self.skew).hull(Interval::ONE + self.skew);
-        let half = Interval::new(0.0, 0.5).unwrap_or(Interval::ENTIRE);
+        let [half, all] = [0.5, 1.0].map(|part| Interval::new(0.0, part).unwrap_or(Interval::ENTIRE));
         LinearProcess {
             alpha: self.alpha,
             drag: slopes * sides,
@@ -150,7 +152,7 @@ impl AxisModel<Interval> {
             lag_s: self.lag_s,
             filter_s: self.filter_s,
             zero_s: Interval::ZERO,
-            delay_s: self.delay_s + half * self.ramp_s,
+            delay_s: self.delay_s + half * self.ramp_s + all * self.pause_s,
         }
     }
 }

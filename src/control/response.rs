@@ -95,7 +95,7 @@ impl StepResponse {
         let limit = Limit::Within(0.0, Self::MOST_SAMPLES);
         domain::require("duration", steps, "samples", limit, "shorten the response or lower its rate")?;
         let model = axis.into();
-        let delay_s = model.delay_s + 0.5 * model.ramp_s;
+        let delay_s = model.delay_s + 0.5 * (model.ramp_s + model.pause_s);
         let (late, limit) = (delay_s * rate_hz, Limit::AtMost(Self::MOST_SAMPLES));
         domain::require("delay", late, "samples", limit, "shorten the delay or lower the rate")?;
         let interval_s = 1.0 / rate_hz;

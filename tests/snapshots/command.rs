@@ -362,7 +362,7 @@ fn every_reported_term_is_tuned_for() {
         serde_json::from_str::<serde_json::Value>(&answer).unwrap()
     };
     let without = tuned("beta_quadratic", 0.0);
-    for term in ["beta_cubic", "skew", "coulomb", "memory", "stiffness", "lag_s", "ramp_s", "filter_s"] {
+    for term in ["beta_cubic", "skew", "coulomb", "memory", "stiffness", "lag_s", "ramp_s", "pause_s", "filter_s"] {
         let with = tuned(term, 0.1);
         // Drag that grows with the speed makes no axis worse than it is at rest, nor does friction.
         let same = with["worst_case"]["met"] == without["worst_case"]["met"];

@@ -125,6 +125,7 @@ impl Reported {
             stiffness: optional(self.stiffness, 1.0, 0.0),
             lag_s: time(self.lag_s),
             ramp_s: time(self.ramp_s),
+            pause_s: time(self.pause_s),
             delay_s: practical(self.delay_s, delay).not_below_zero(),
             deltas,
             ..self

@@ -10,6 +10,8 @@ pub enum Term {
     Lag,
     /// Limited rate of the actuator.
     RateLimit,
+    /// Time without thrust after the command changes its sign.
+    ReversalPause,
     /// Restoring force.
     Stiffness,
     /// Drag proportional to the cube of the speed.
@@ -27,9 +29,10 @@ pub enum Term {
 }
 
 impl Term {
-    pub(crate) const ALL: [Self; 9] = [
+    pub(crate) const ALL: [Self; 10] = [
         Self::Lag,
         Self::RateLimit,
+        Self::ReversalPause,
         Self::Stiffness,
         Self::CubicDrag,
         Self::SkewDrag,
@@ -45,6 +48,7 @@ impl Term {
         match self {
             Self::Lag => "lag",
             Self::RateLimit => "rate-limit",
+            Self::ReversalPause => "reversal-pause",
             Self::Stiffness => "stiffness",
             Self::CubicDrag => "cubic-drag",
             Self::SkewDrag => "one-sided-drag",
@@ -60,6 +64,7 @@ impl Term {
         match self {
             Self::Lag => "the actuator follows the command with a lag",
             Self::RateLimit => "the actuator follows the command at a limited rate",
+            Self::ReversalPause => "the thrust pauses when the command changes its sign",
             Self::Stiffness => "a restoring force acts",
             Self::CubicDrag => "drag grows with the cube of the speed",
             Self::SkewDrag => "drag is larger to one side than to the other",

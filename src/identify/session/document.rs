@@ -48,7 +48,7 @@ pub type ReportedModel = Reported<Option<Estimate>, Caution>;
 impl From<&Reported> for ReportedModel {
     fn from(reported: &Reported) -> Self {
         let Reported { drag, alpha, beta_cubic, skew, coulomb, memory, memory_s, stiffness, .. } = *reported;
-        let Reported { lag_s, ramp_s, filter_s, delay_s, drag_covariance, trust, .. } = *reported;
+        let Reported { lag_s, ramp_s, pause_s, filter_s, delay_s, drag_covariance, trust, .. } = *reported;
         Self {
             drag,
             laws: LawEvidence::default(),
@@ -65,6 +65,7 @@ impl From<&Reported> for ReportedModel {
             stiffness,
             lag_s,
             ramp_s,
+            pause_s,
             filter_s,
             deltas: reported.deltas.clone(),
             budget: reported.budget.clone(),

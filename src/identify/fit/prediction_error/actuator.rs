@@ -1,4 +1,4 @@
-//! The force of the actuator: the command, delayed, limited in its rate, then behind a first-order lag.
+//! The force of the actuator: the command, delayed, limited in its rate, then behind a first-order lag; or with pauses.
 //!
 //! The command is a chain of pieces that are linear in time, so that the force is in closed form too, and its derivatives
 //! with respect to delay, lag and ramp with it.
@@ -24,13 +24,15 @@ struct ForceSegment {
     at_begin: Force,
     /// Jump of the force at the beginning, zero behind a lag or a ramp.
     jump: f64,
+    /// Whether a pause ends at the beginning.
+    paused: bool,
 }
 
 /// Where the integration has to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum IntegrationStop {
-    /// The force enters its next segment with this jump.
-    Segment { jump: f64 },
+    /// The force enters its next segment with this jump, at the end of a pause or not.
+    Segment { jump: f64, paused: bool },
     /// The force bends here; only the step's length matters.
     Refine,
     /// A change of the command by `jump` whose instant has the variance `variance_s2` takes effect.
@@ -50,8 +52,8 @@ const LAG_STEPS: [f64; 5] = [0.5, 1.0, 2.0, 4.0, 8.0];
 impl Actuator {
     /// `range` is the command's largest less its least value, over which a ramp takes its time.
     pub(super) fn new(pieces: &[CommandPiece], model: &VehicleModel, range: f64) -> Self {
-        let (delay_s, lag_s, ramp_s) =
-            (model.value(Parameter::DelayS), model.value(Parameter::LagS), model.value(Parameter::RampS));
+        let [delay_s, lag_s, ramp_s, pause_s] =
+            [Parameter::DelayS, Parameter::LagS, Parameter::RampS, Parameter::PauseS].map(|p| model.value(p));
         let mut segments: Vec<ForceSegment> = Vec::with_capacity(pieces.len());
         let segment = |begin_s, input, input_by_ramp| ForceSegment {
             begin_s,
@@ -59,10 +61,15 @@ impl Actuator {
             input_by_ramp,
             at_begin: Force::default(),
             jump: 0.0,
+            paused: false,
         };
         if ramp_s > 0.0 {
             limited(pieces, ramp_s, range, |begin_s, input, by_ramp| {
                 segments.push(segment(begin_s + delay_s, input, by_ramp));
+            });
+        } else if pause_s > 0.0 {
+            paused(pieces, pause_s, |begin_s, input, paused| {
+                segments.push(ForceSegment { paused, ..segment(begin_s + delay_s, input, [0.0; 2]) });
             });
         } else {
             segments.extend(pieces.iter().map(|p| segment(p.begin_s + delay_s, [p.value, p.slope], [0.0; 2])));
@@ -119,7 +126,7 @@ impl Actuator {
     ) -> Vec<(f64, IntegrationStop)> {
         let mut stops: Vec<(f64, IntegrationStop)> = Vec::with_capacity(2 * self.segments.len());
         for segment in &self.segments[1..] {
-            stops.push((segment.begin_s, IntegrationStop::Segment { jump: segment.jump }));
+            stops.push((segment.begin_s, IntegrationStop::Segment { jump: segment.jump, paused: segment.paused }));
             if refine && self.lag_s > 0.0 {
                 stops.extend(LAG_STEPS.map(|part| (segment.begin_s + part * self.lag_s, IntegrationStop::Refine)));
             }
@@ -149,5 +156,22 @@ fn limited(pieces: &[CommandPiece], ramp_s: f64, range: f64, mut push: impl FnMu
             level += slope * available;
             level_by_ramp -= slope / ramp_s * available;
         }
+    }
+}
+
+/// The command with zero for `pause_s` after each change of its sign: calls `push` with the beginning, value and slope of each segment, and
+/// with whether a pause ends there. A change of the command within a pause ends it only if the sign stays.
+fn paused(pieces: &[CommandPiece], pause_s: f64, mut push: impl FnMut(f64, [f64; 2], bool)) {
+    let mut before = pieces[0].value;
+    for (index, piece) in pieces.iter().enumerate() {
+        if before * piece.value < 0.0 {
+            push(piece.begin_s, [0.0; 2], false);
+            if pieces.get(index + 1).is_none_or(|next| piece.begin_s + pause_s < next.begin_s) {
+                push(piece.begin_s + pause_s, [piece.value, 0.0], true);
+            }
+        } else {
+            push(piece.begin_s, [piece.value, piece.slope], false);
+        }
+        before = piece.value;
     }
 }

@@ -33,7 +33,7 @@ const PLAIN_LOG_ODDS: f64 = 0.25;
 const IDLE: f64 = 1.0;
 const IDLE_STRUCTURE: f64 = 0.25;
 /// The structures meant.
-const SUBTLE: [Parameter; 7] = [
+const SUBTLE: [Parameter; 8] = [
     Parameter::Stiffness,
     Parameter::CubicDrag,
     Parameter::Skew,
@@ -41,6 +41,7 @@ const SUBTLE: [Parameter; 7] = [
     Parameter::MemoryS,
     Parameter::LagS,
     Parameter::RampS,
+    Parameter::PauseS,
 ];
 
 /// Covariance of the structural parameters, zero where not estimated.

@@ -102,7 +102,7 @@ fn run_with<const N: usize>(
 ) -> Option<FilterPass> {
     let derivatives = wanted != Evaluation::Likelihood;
     let actuator = Actuator::new(&observations.pieces, model, observations.range);
-    let late = model.value(Parameter::DelayS) + model.value(Parameter::LagS) + 0.5 * model.value(Parameter::RampS);
+    let late = model.value(Parameter::DelayS) + model.value(Parameter::LagS) + 0.5 * (model.value(Parameter::RampS) + model.value(Parameter::PauseS));
     let kicks = observations.kicks.iter().filter(|kick| kick.variance_s2 > 0.0);
     let kicks =
         kicks.map(|kick| (kick.at_s + late, IntegrationStop::Kick { jump: kick.jump, variance_s2: kick.variance_s2 }));
@@ -152,9 +152,9 @@ fn run_with<const N: usize>(
             let Some((_, stop)) = stop else { break };
             next_stop += 1;
             match *stop {
-                IntegrationStop::Segment { jump } => {
+                IntegrationStop::Segment { jump, paused } => {
                     segment += 1;
-                    filter.jump(jump);
+                    filter.jump(jump, paused);
                 }
                 IntegrationStop::Refine => {}
                 IntegrationStop::Kick { jump, variance_s2 } => filter.kick(jump, variance_s2),
@@ -376,10 +376,10 @@ impl<'a, const N: usize> Filter<'a, N> {
         self.covariance[3][3] += gained;
     }
 
-    /// The force jumps: the velocity lags behind a later jump.
-    fn jump(&mut self, jump: f64) {
+    /// The force jumps: the velocity lags behind a later jump, by delay or, at the end of a pause, by its length.
+    fn jump(&mut self, jump: f64, paused: bool) {
         for (parameter, column) in &mut self.sensitivities.structure {
-            if *parameter == Parameter::DelayS {
+            if *parameter == Parameter::DelayS || (paused && *parameter == Parameter::PauseS) {
                 column[1] -= jump / self.dynamics.alpha;
             }
         }

@@ -4,7 +4,7 @@
 //! The vehicle is
 //! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x'' + memory s + k x = a(t - T_d) + delta + w(t)`,
 //! `tau a' = u - a`, `memory_s s' = x' - s`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970;
-//! Kristensen, Madsen and Jorgensen 2004; Ljung 1999, chapter 7). Inertia, drag, disturbance and white noise are always there. Terms are a lag, a limited rate, a restoring force, cubic
+//! Kristensen, Madsen and Jorgensen 2004; Ljung 1999, chapter 7). Inertia, drag, disturbance and white noise are always there. Terms are a lag, a limited rate, a pause of the thrust at a reversal, a restoring force, cubic
 //! and one-sided drag, fluid memory and a delay that differs from the given delay; a process force and
 //! coloured noise. Each is tried, and joins where the record is enough likelier for it. Intervals are those of all models tried, averaged, so
 //! that an interval allows for the choice among them.
@@ -224,6 +224,7 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
         memory_s: present(Parameter::MemoryS).map(not_negative),
         lag_s: present(Parameter::LagS).map(not_negative),
         ramp_s: present(Parameter::RampS).map(not_negative),
+        pause_s: present(Parameter::PauseS).map(not_negative),
         filter_s: None,
         deltas: [estimate(Parameter::Disturbance)].into_iter().collect(),
         delay_s: not_negative(estimate(Parameter::DelayS)),
@@ -269,6 +270,7 @@ fn belonging(means: &Reported, model: &VehicleModel) -> Reported {
         memory_s: term(Parameter::MemoryS, means.memory_s),
         lag_s: term(Parameter::LagS, means.lag_s),
         ramp_s: term(Parameter::RampS, means.ramp_s),
+        pause_s: term(Parameter::PauseS, means.pause_s),
         delay_s: of(Parameter::DelayS, means.delay_s),
         deltas: means.deltas.iter().map(|delta| of(Parameter::Disturbance, *delta)).collect(),
         ..means.clone()

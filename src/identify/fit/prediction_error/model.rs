@@ -33,6 +33,8 @@ pub enum Parameter {
     LagS,
     /// Time that an actuator of limited rate takes over the command's whole range, in s.
     RampS,
+    /// Time without thrust after the command changes its sign, in s.
+    PauseS,
     /// Output where the record begins.
     Position,
     /// Its rate there, per s.
@@ -41,7 +43,7 @@ pub enum Parameter {
 
 impl Parameter {
     /// Number of structural parameters.
-    pub const COUNT: usize = 14;
+    pub const COUNT: usize = 15;
     /// All of them, in the order of their numbers.
     pub const ALL: [Self; Self::COUNT] = [
         Self::Alpha,
@@ -56,6 +58,7 @@ impl Parameter {
         Self::DelayS,
         Self::LagS,
         Self::RampS,
+        Self::PauseS,
         Self::Position,
         Self::Velocity,
     ];

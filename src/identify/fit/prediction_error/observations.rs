@@ -83,6 +83,11 @@ impl Observations {
         self.weigh(kick, &vec![1.0 / choices as f64; choices]);
     }
 
+    /// Whether a switched command changes its sign.
+    pub(super) fn reverses(&self) -> bool {
+        self.switched && self.pieces.windows(2).any(|pair| pair[0].value * pair[1].value < 0.0)
+    }
+
     /// Total weight of the readings that the filter uses.
     pub(super) fn count(&self) -> f64 {
         self.weight[self.first..].iter().sum()

@@ -82,6 +82,7 @@ impl Reported {
             (Parameter::DelayS, self.delay_s.value, false),
             (Parameter::LagS, value(self.lag_s), false),
             (Parameter::RampS, value(self.ramp_s), false),
+            (Parameter::PauseS, value(self.pause_s), false),
             (Parameter::Disturbance, 0.0, true),
             (Parameter::Position, position, true),
             (Parameter::Velocity, velocity, true),

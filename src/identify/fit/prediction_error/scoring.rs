@@ -49,7 +49,7 @@ fn bounds(parameter: Parameter, observations: &Observations) -> (f64, f64) {
         Parameter::LagS => (0.02 * interval, 2.0 * half_period),
         Parameter::MemoryS => (0.1 * half_period, 5.0 * half_period),
         Parameter::Skew => (-0.9, 0.9),
-        Parameter::RampS => (0.05 * interval, 2.0 * half_period),
+        Parameter::RampS | Parameter::PauseS => (0.05 * interval, 2.0 * half_period),
         _ => (f64::NEG_INFINITY, f64::INFINITY),
     }
 }

@@ -175,6 +175,7 @@ impl Several {
             stiffness: together.force(|r| r.stiffness),
             lag_s: own(&|r| r.lag_s),
             ramp_s: own(&|r| r.ramp_s),
+            pause_s: own(&|r| r.pause_s),
             filter_s: None,
             deltas: together
                 .parts

@@ -299,8 +299,8 @@ impl<'a> StructureSearch<'a> {
     /// Replaces the confounded lags by each other; returns the number of the best model.
     fn confounded_otherwise(&mut self, tried: &mut Vec<Fitted>, from: usize) -> usize {
         let current = tried[from].clone();
-        let switched = self.observations(&current.model).switched;
-        let mut others = confounded_lags::chains(&current.model, self.known.delay_s, switched);
+        let observations = self.observations(&current.model);
+        let mut others = confounded_lags::chains(&current.model, self.known.delay_s, observations);
         if !others.is_empty() && self.goes_on(tried, LeftOut::Alternatives) {
             others.retain(|model| !tried.iter().any(|fitted| fitted.model.is_alike(model)));
             let worth = current.log_likelihood - COUNTING;
@@ -330,7 +330,7 @@ impl<'a> StructureSearch<'a> {
             });
             self.climb_from(starts.collect(), f64::NEG_INFINITY)
         };
-        confounded_lags::terms(observations.switched).par_iter().filter_map(from).collect()
+        confounded_lags::terms(observations).par_iter().filter_map(from).collect()
     }
 
     /// A model with each untried drag law, so that the laws can be compared.

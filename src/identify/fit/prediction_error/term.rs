@@ -10,6 +10,7 @@ impl Term {
         match self {
             Self::Lag => &[Parameter::LagS],
             Self::RateLimit => &[Parameter::RampS],
+            Self::ReversalPause => &[Parameter::PauseS],
             Self::Stiffness => &[Parameter::Stiffness],
             Self::CubicDrag => &[Parameter::CubicDrag],
             Self::SkewDrag => &[Parameter::Skew],
@@ -46,7 +47,12 @@ impl Term {
     pub(super) fn applies(self, model: &VehicleModel, observations: &Observations) -> bool {
         !self.is_in(model)
             && match self {
-                Self::RateLimit => observations.switched,
+                // The force behind a lag is in closed form for a command that jumps at once.
+                Self::Lag => !Self::ReversalPause.is_in(model),
+                Self::RateLimit => observations.switched && !Self::ReversalPause.is_in(model),
+                Self::ReversalPause => {
+                    observations.reverses() && !Self::Lag.is_in(model) && !Self::RateLimit.is_in(model)
+                }
                 // A force that changes with time takes in what late drag does.
                 Self::FluidMemory => !Self::ProcessForce.is_in(model),
                 _ => true,
@@ -65,7 +71,7 @@ impl Term {
             // The mean delay stays.
             let late = match parameter {
                 Parameter::LagS => model.value(parameter),
-                Parameter::RampS => 0.5 * model.value(Parameter::RampS),
+                Parameter::RampS | Parameter::PauseS => 0.5 * model.value(parameter),
                 _ => 0.0,
             };
             if model.is_free(Parameter::DelayS) {
@@ -112,9 +118,9 @@ impl Term {
                 [0.15, 0.5, 1.5].map(slow).to_vec()
             }
             Self::Delay => vec![with(Parameter::DelayS, model.value(Parameter::DelayS))],
-            Self::Lag | Self::RateLimit => {
-                let (parameter, mean) =
-                    if self == Self::RateLimit { (Parameter::RampS, 0.5) } else { (Parameter::LagS, 1.0) };
+            Self::Lag | Self::RateLimit | Self::ReversalPause => {
+                let parameter = self.parameters()[0];
+                let mean = if self == Self::Lag { 1.0 } else { 0.5 };
                 let delay_s = model.value(Parameter::DelayS);
                 let late = |part: f64| {
                     // At a known delay the lag comes on top; else it takes the place of a part of the delay.

@@ -199,10 +199,12 @@ fn scores_of_the_structure_are_the_likelihood_s_slopes() {
     lagged.set(Parameter::LagS, 0.17, true);
     let mut ramped = lagged.clone();
     ramped.set(Parameter::RampS, 0.45, true);
+    let mut pausing = plain.clone();
+    pausing.set(Parameter::PauseS, 0.23, true);
     let mut uneven = plain.clone();
     uneven.set(Parameter::Skew, 0.2, true);
     let observations = Observations::new(&record(), Clock::Stamps, SwitchingInstant::AtSamples);
-    for model in [plain, lagged, ramped, uneven] {
+    for model in [plain, lagged, ramped, pausing, uneven] {
         let score = filter::run(&observations, &model, Evaluation::Score).expect("a pass").score();
         for parameter in model.structure() {
             let slope = difference(&observations, &model, 1e-5, |m, by| m.values[parameter as usize] += by);

@@ -19,7 +19,7 @@ pub(super) struct Drives<'a> {
 impl Drives<'_> {
     /// Derivatives, by the parameter, of position and velocity at the end of the step.
     pub(super) fn by(&self, parameter: Parameter) -> [f64; 2] {
-        if matches!(parameter, Parameter::Position | Parameter::Velocity) {
+        if matches!(parameter, Parameter::PauseS | Parameter::Position | Parameter::Velocity) {
             return [0.0; 2];
         }
         let Self { dynamics, step, begin, forces, late, memory } = self;
@@ -39,7 +39,7 @@ impl Drives<'_> {
                 Parameter::DelayS => force.by_delay,
                 Parameter::LagS => force.by_lag,
                 Parameter::RampS => force.by_ramp,
-                Parameter::Position | Parameter::Velocity => 0.0,
+                Parameter::PauseS | Parameter::Position | Parameter::Velocity => 0.0,
             }
         };
         let per_alpha = 1.0 / dynamics.alpha;

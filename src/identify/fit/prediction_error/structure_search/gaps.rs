@@ -44,7 +44,7 @@ impl StructureSearch<'_> {
     /// The best model of each reading, and those that differ from the best of all in their confounded lags alone.
     fn confounded_models<'b>(&self, tried: &'b [Fitted]) -> Vec<&'b VehicleModel> {
         let best = &tried[self.best(tried)].model;
-        let others = confounded_lags::chains(best, self.known.delay_s, self.observations(best).switched);
+        let others = confounded_lags::chains(best, self.known.delay_s, self.observations(best));
         let mut order: Vec<&Fitted> = tried.iter().collect();
         order.sort_by(|a, b| self.value(b).total_cmp(&self.value(a)));
         let mut models: Vec<&VehicleModel> = Vec::new();
