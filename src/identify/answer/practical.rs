@@ -126,6 +126,7 @@ impl Reported {
             lag_s: time(self.lag_s),
             ramp_s: time(self.ramp_s),
             pause_s: time(self.pause_s),
+            filter_s: time(self.filter_s),
             delay_s: practical(self.delay_s, delay).not_below_zero(),
             deltas,
             ..self

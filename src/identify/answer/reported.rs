@@ -46,7 +46,7 @@ pub struct Reported<Drag = Estimate, Why = Reason> {
     /// Time without thrust after the command changes its sign in s, where the likeliest model has it.
     #[serde(default)]
     pub pause_s: Option<Estimate>,
-    /// Time constant of the sensor's filter in s, of a model written by hand; no record is fitted with it.
+    /// Time constant of the sensor's filter in s, where the likeliest model has it.
     pub filter_s: Option<Estimate>,
     /// Constant force during each record: in units of the record's own command where two levels leave the law of thrust open.
     #[serde(flatten)]
@@ -63,11 +63,11 @@ pub struct Reported<Drag = Estimate, Why = Reason> {
 }
 
 impl Reported {
-    /// Delay with the mean time by which lag, limited rate and pause make the actuator late, in s.
+    /// Delay with the mean time by which lag, limited rate and pause make the actuator late, and a filter the sensor, in s.
     #[must_use]
     pub fn mean_delay_s(&self) -> f64 {
         let late = |time_s: Option<Estimate>| time_s.map_or(0.0, |estimate| estimate.value);
-        self.delay_s.value + late(self.lag_s) + 0.5 * (late(self.ramp_s) + late(self.pause_s))
+        self.delay_s.value + late(self.lag_s) + late(self.filter_s) + 0.5 * (late(self.ramp_s) + late(self.pause_s))
     }
 
     /// Linear, quadratic and cubic drag.

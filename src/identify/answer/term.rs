@@ -20,6 +20,8 @@ pub enum Term {
     SkewDrag,
     /// Drag that follows the speed late, as of water set in motion before.
     FluidMemory,
+    /// First-order filter of the sensor.
+    SensorFilter,
     /// A delay that differs from the given delay.
     Delay,
     /// A force that walks at random.
@@ -29,7 +31,7 @@ pub enum Term {
 }
 
 impl Term {
-    pub(crate) const ALL: [Self; 10] = [
+    pub(crate) const ALL: [Self; 11] = [
         Self::Lag,
         Self::RateLimit,
         Self::ReversalPause,
@@ -37,6 +39,7 @@ impl Term {
         Self::CubicDrag,
         Self::SkewDrag,
         Self::FluidMemory,
+        Self::SensorFilter,
         Self::Delay,
         Self::ProcessForce,
         Self::ColouredNoise,
@@ -53,6 +56,7 @@ impl Term {
             Self::CubicDrag => "cubic-drag",
             Self::SkewDrag => "one-sided-drag",
             Self::FluidMemory => "fluid-memory",
+            Self::SensorFilter => "sensor-filter",
             Self::Delay => "delay",
             Self::ProcessForce => "process-force",
             Self::ColouredNoise => "coloured-noise",
@@ -69,6 +73,7 @@ impl Term {
             Self::CubicDrag => "drag grows with the cube of the speed",
             Self::SkewDrag => "drag is larger to one side than to the other",
             Self::FluidMemory => "a part of the drag follows the speed late",
+            Self::SensorFilter => "the sensor follows the motion with a lag",
             Self::Delay => "the delay is another than the one given",
             Self::ProcessForce => "a force acts that changes with time",
             Self::ColouredNoise => "errors of the readings are alike from sample to sample",

@@ -265,6 +265,7 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
         ("lag of the actuator", reported.lag_s, &second),
         ("ramp of the actuator", reported.ramp_s, &second),
         ("pause at a reversal", reported.pause_s, &second),
+        ("filter of the sensor", reported.filter_s, &second),
     ];
     let shared = named.into_iter().filter_map(|(name, estimate, unit)| Some((name.to_owned(), estimate?, unit)));
     let deltas = found.sources().iter().zip(&*reported.deltas).map(|(source, delta)| match found.sources().len() {

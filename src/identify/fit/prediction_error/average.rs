@@ -33,7 +33,7 @@ const PLAIN_LOG_ODDS: f64 = 0.25;
 const IDLE: f64 = 1.0;
 const IDLE_STRUCTURE: f64 = 0.25;
 /// The structures meant.
-const SUBTLE: [Parameter; 8] = [
+const SUBTLE: [Parameter; 9] = [
     Parameter::Stiffness,
     Parameter::CubicDrag,
     Parameter::Skew,
@@ -42,6 +42,7 @@ const SUBTLE: [Parameter; 8] = [
     Parameter::LagS,
     Parameter::RampS,
     Parameter::PauseS,
+    Parameter::FilterS,
 ];
 
 /// Covariance of the structural parameters, zero where not estimated.

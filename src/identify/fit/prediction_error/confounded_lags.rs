@@ -1,4 +1,4 @@
-//! Confounded lags: a delay, a lag, a limited rate and a pause shift the phase alike, and the first of them that joins
+//! Confounded lags: a delay, a lag, a limited rate, a pause of the thrust and a filter of the sensor shift the phase alike, and the first of them that joins
 //! need not be the one at work. Hence models with each single lag and each pair share the total lag found.
 
 use super::model::{Parameter, VehicleModel};
@@ -6,10 +6,11 @@ use super::observations::Observations;
 use crate::identify::answer::Term;
 
 /// The lag parameters apart from the delay, with the mean lag per unit of each.
-const LATE: [(Term, Parameter, f64); 3] = [
+const LATE: [(Term, Parameter, f64); 4] = [
     (Term::Lag, Parameter::LagS, 1.0),
     (Term::RateLimit, Parameter::RampS, 0.5),
     (Term::ReversalPause, Parameter::PauseS, 0.5),
+    (Term::SensorFilter, Parameter::FilterS, 1.0),
 ];
 
 /// Total lag in addition to the delay, in s.
@@ -19,7 +20,7 @@ fn total_lag_s(model: &VehicleModel) -> f64 {
 
 /// The terms that lag: a rate is limited only where the command is switched, a pause is only where it changes its sign.
 pub(super) fn terms(observations: &Observations) -> Vec<Term> {
-    let mut terms = vec![Term::Lag];
+    let mut terms = vec![Term::Lag, Term::SensorFilter];
     terms.extend(observations.switched.then_some(Term::RateLimit));
     terms.extend(observations.reverses().then_some(Term::ReversalPause));
     terms
@@ -39,7 +40,11 @@ pub(super) fn ways(model: &VehicleModel, known_delay_s: Option<f64>) -> (usize, 
 
 /// The models that share the total lag among each single lag and each pair of confounded lags; none for a model without a lag, or with
 /// the delay given.
-pub(super) fn chains(model: &VehicleModel, known_delay_s: Option<f64>, observations: &Observations) -> Vec<VehicleModel> {
+pub(super) fn chains(
+    model: &VehicleModel,
+    known_delay_s: Option<f64>,
+    observations: &Observations,
+) -> Vec<VehicleModel> {
     let delay_s = model.value(Parameter::DelayS);
     let beyond_s = total_lag_s(model) + known_delay_s.map_or(0.0, |known| delay_s - known);
     if !is_in(model) && (known_delay_s.is_none() || !Term::Delay.is_in(model)) {
@@ -66,7 +71,10 @@ pub(super) fn chains(model: &VehicleModel, known_delay_s: Option<f64>, observati
         model
     };
     // A pause is not modelled behind a lag or a limited rate.
-    let apart = |pair: &Vec<Term>| !pair.contains(&Term::ReversalPause) || pair.contains(&Term::Delay);
+    let apart = |pair: &Vec<Term>| {
+        let behind = pair.contains(&Term::Lag) || pair.contains(&Term::RateLimit);
+        !(behind && pair.contains(&Term::ReversalPause))
+    };
     let pairs = terms.iter().enumerate().flat_map(|(index, a)| terms[..index].iter().map(move |b| vec![*b, *a]));
     terms.iter().map(|term| vec![*term]).chain(pairs.filter(apart)).map(|parts| with(&parts)).collect()
 }

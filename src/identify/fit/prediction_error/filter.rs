@@ -1,7 +1,8 @@
 //! Extended Kalman filter in continuous and discrete time (Jazwinski 1970, chapter 8): predicts each reading from those
 //! before it. The estimate maximises the innovations' likelihood; its derivatives are carried along.
 //!
-//! States are position, velocity, process force and coloured error of the reading, and the late speed where drag follows it. The derivatives with respect to
+//! States are position, velocity, process force and coloured error of the reading, the filtered position where the sensor
+//! filters, and the late speed where drag follows it. The derivatives with respect to
 //! structural parameters are those of the predictor with the gain as it is (Ljung 1999, section 10.2: what a change of the
 //! gain adds has expectation zero); with respect to the noise they are complete for the motion as linearised.
 
@@ -16,7 +17,7 @@ use super::motion::{Dynamics, Point};
 use super::observations::Observations;
 use driven::Drives;
 pub(super) use pass::{FilterPass, Innovation, Score};
-use transition::{LATE, LateSpeed, LowPass, Square, Transition, Vector, add};
+use transition::{FILTERED, LATE, LateSpeed, LowPass, Square, Transition, Vector, add};
 
 /// Parts of the record whose scores are kept apart.
 pub(super) const PARTS: usize = 8;
@@ -31,7 +32,9 @@ const SLOWEST_RATE: f64 = 1e-12;
 const MOST_SUBSTEPS: f64 = 1e3;
 /// Innovations that leave all bounds, in ranges of the output.
 const BOUNDS: f64 = 1e3;
-/// Standard deviation of the late speed where the record begins, in highest speeds.
+/// Standard deviation of the filtered position where the record begins, in ranges of the output.
+const UNKNOWN_PATH: f64 = 0.1;
+/// The same of the late speed, in highest speeds.
 const UNKNOWN_SPEED: f64 = 0.5;
 /// A turn within this part of a step from its ends does not divide it.
 const TURN_INSIDE: f64 = 0.02;
@@ -70,6 +73,8 @@ struct Filter<'a, const N: usize> {
     dynamics: Dynamics,
     sizes: NoiseSizes,
     stochastic: bool,
+    /// Place of the state that is read.
+    read: usize,
     state: Vector<N>,
     covariance: Square<N>,
     sensitivities: Sensitivities<N>,
@@ -89,6 +94,8 @@ pub(super) enum Evaluation {
 /// Runs through the record; `None` where the motion diverges.
 pub(super) fn run(observations: &Observations, model: &VehicleModel, wanted: Evaluation) -> Option<FilterPass> {
     if model.value(Parameter::MemoryS) > 0.0 {
+        run_with::<6>(observations, model, wanted)
+    } else if model.value(Parameter::FilterS) > 0.0 {
         run_with::<5>(observations, model, wanted)
     } else {
         run_with::<4>(observations, model, wanted)
@@ -102,7 +109,9 @@ fn run_with<const N: usize>(
 ) -> Option<FilterPass> {
     let derivatives = wanted != Evaluation::Likelihood;
     let actuator = Actuator::new(&observations.pieces, model, observations.range);
-    let late = model.value(Parameter::DelayS) + model.value(Parameter::LagS) + 0.5 * (model.value(Parameter::RampS) + model.value(Parameter::PauseS));
+    let late = model.value(Parameter::DelayS)
+        + model.value(Parameter::LagS)
+        + 0.5 * (model.value(Parameter::RampS) + model.value(Parameter::PauseS));
     let kicks = observations.kicks.iter().filter(|kick| kick.variance_s2 > 0.0);
     let kicks =
         kicks.map(|kick| (kick.at_s + late, IntegrationStop::Kick { jump: kick.jump, variance_s2: kick.variance_s2 }));
@@ -211,6 +220,11 @@ impl<'a, const N: usize> Filter<'a, N> {
         covariance[2][2] = sizes.force * unseen_s;
         let forgotten = sizes.colour_rate + 1.0 / observations.duration_s();
         covariance[3][3] = 0.5 * sizes.colour / forgotten;
+        let read = if N > FILTERED && model.value(Parameter::FilterS) > 0.0 { FILTERED } else { 0 };
+        if read == FILTERED {
+            // The filtered position before the record is unknown: deviation [`UNKNOWN_PATH`] times the span.
+            covariance[FILTERED][FILTERED] = (UNKNOWN_PATH * observations.span).powi(2);
+        }
         if N > LATE {
             // The velocity before the record is unknown.
             covariance[LATE][LATE] = (UNKNOWN_SPEED * observations.fastest).powi(2);
@@ -223,6 +237,14 @@ impl<'a, const N: usize> Filter<'a, N> {
                     Parameter::Position => column[0] = 1.0,
                     Parameter::Velocity => column[1] = 1.0,
                     _ => {}
+                }
+                if read == FILTERED {
+                    column[FILTERED] = match parameter {
+                        Parameter::Position => 1.0,
+                        Parameter::Velocity => -model.value(Parameter::FilterS),
+                        Parameter::FilterS => -model.value(Parameter::Velocity),
+                        _ => 0.0,
+                    };
                 }
                 (parameter, column)
             }));
@@ -239,11 +261,16 @@ impl<'a, const N: usize> Filter<'a, N> {
         }
         let mut state = [0.0; N];
         (state[0], state[1]) = (model.value(Parameter::Position), model.value(Parameter::Velocity));
+        if read == FILTERED {
+            // As if it had moved evenly before.
+            state[FILTERED] = state[0] - model.value(Parameter::FilterS) * state[1];
+        }
         Self {
             model,
             dynamics,
             sizes,
-            stochastic: kicked || random || N > LATE,
+            stochastic: kicked || random || N > FILTERED,
+            read,
             state,
             covariance,
             sensitivities,
@@ -287,19 +314,31 @@ impl<'a, const N: usize> Filter<'a, N> {
             before[2],
             transition.colour * before[3],
         ]);
+        let positions = [before[0], step.middle.position, step.end.position];
         let velocities = [before[1], step.middle.velocity, step.end.velocity];
+        let sensor = (self.read == FILTERED).then(|| LowPass::new(self.model.value(Parameter::FilterS), h_s));
+        if let Some(sensor) = &sensor {
+            transition.filter(sensor, &step, h_s, alpha);
+            self.state[FILTERED] = sensor.after(before[FILTERED], &positions);
+        }
         let wake = late.map(|late| (late, LowPass::new(memory_s, h_s)));
         if let Some((late, low_pass)) = &wake {
             transition.remember(late, low_pass, &step, memory / alpha);
             self.state[LATE] = low_pass.after(before[LATE], &velocities);
         }
         let drives =
-            Drives { dynamics: &self.dynamics, step: &step, begin: &begin, forces: &forces, late, memory };
+            Drives { dynamics: &self.dynamics, step: &step, begin: &begin, forces: &forces, late, memory, h_s };
         for (parameter, column) in &mut self.sensitivities.structure {
-            let [end, velocity] = drives.by(*parameter);
+            let [end, velocity, middle] = drives.by(*parameter);
             *column = transition.apply(column);
             column[0] += end;
             column[1] += velocity;
+            if let Some(sensor) = &sensor {
+                column[FILTERED] += sensor.weights[1] * middle + sensor.weights[2] * end;
+                if *parameter == Parameter::FilterS {
+                    column[FILTERED] += sensor.after_by_time(before[FILTERED], &positions);
+                }
+            }
             if let Some((_, low_pass)) = &wake {
                 column[LATE] += transition.late[2] * velocity;
                 if *parameter == Parameter::MemoryS {

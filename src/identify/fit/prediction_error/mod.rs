@@ -5,8 +5,8 @@
 //! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x'' + memory s + k x = a(t - T_d) + delta + w(t)`,
 //! `tau a' = u - a`, `memory_s s' = x' - s`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970;
 //! Kristensen, Madsen and Jorgensen 2004; Ljung 1999, chapter 7). Inertia, drag, disturbance and white noise are always there. Terms are a lag, a limited rate, a pause of the thrust at a reversal, a restoring force, cubic
-//! and one-sided drag, fluid memory and a delay that differs from the given delay; a process force and
-//! coloured noise. Each is tried, and joins where the record is enough likelier for it. Intervals are those of all models tried, averaged, so
+//! and one-sided drag, fluid memory, a filter of the sensor and a delay that differs from the given delay; a process force
+//! and coloured noise. Each is tried, and joins where the record is enough likelier for it. Intervals are those of all models tried, averaged, so
 //! that an interval allows for the choice among them.
 //! Where readings are rounded, their errors belong together as far as the motion says, and the interval follows.
 //!
@@ -225,7 +225,7 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
         lag_s: present(Parameter::LagS).map(not_negative),
         ramp_s: present(Parameter::RampS).map(not_negative),
         pause_s: present(Parameter::PauseS).map(not_negative),
-        filter_s: None,
+        filter_s: present(Parameter::FilterS).map(not_negative),
         deltas: [estimate(Parameter::Disturbance)].into_iter().collect(),
         delay_s: not_negative(estimate(Parameter::DelayS)),
         budget: Vec::new(),
@@ -271,6 +271,7 @@ fn belonging(means: &Reported, model: &VehicleModel) -> Reported {
         lag_s: term(Parameter::LagS, means.lag_s),
         ramp_s: term(Parameter::RampS, means.ramp_s),
         pause_s: term(Parameter::PauseS, means.pause_s),
+        filter_s: term(Parameter::FilterS, means.filter_s),
         delay_s: of(Parameter::DelayS, means.delay_s),
         deltas: means.deltas.iter().map(|delta| of(Parameter::Disturbance, *delta)).collect(),
         ..means.clone()

@@ -5,7 +5,7 @@ use crate::identify::signal::{Clock, SwitchingInstant};
 
 /// Structural parameters of
 /// `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x'' + memory s + k x = a(t - T_d) + delta + w(t)`,
-/// `tau a' = u - a`, `memory_s s' = x' - s`, and the state in which the record begins.
+/// `tau a' = u - a`, `memory_s s' = x' - s`, `filter y' = x - y`, and the state in which the record begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(usize)]
 pub enum Parameter {
@@ -35,6 +35,8 @@ pub enum Parameter {
     RampS,
     /// Time without thrust after the command changes its sign, in s.
     PauseS,
+    /// Time constant of the sensor's filter, in s.
+    FilterS,
     /// Output where the record begins.
     Position,
     /// Its rate there, per s.
@@ -43,7 +45,7 @@ pub enum Parameter {
 
 impl Parameter {
     /// Number of structural parameters.
-    pub const COUNT: usize = 15;
+    pub const COUNT: usize = 16;
     /// All of them, in the order of their numbers.
     pub const ALL: [Self; Self::COUNT] = [
         Self::Alpha,
@@ -59,6 +61,7 @@ impl Parameter {
         Self::LagS,
         Self::RampS,
         Self::PauseS,
+        Self::FilterS,
         Self::Position,
         Self::Velocity,
     ];
@@ -82,13 +85,8 @@ pub(super) enum NoiseParameter {
 
 impl NoiseParameter {
     pub(super) const COUNT: usize = 5;
-    pub(super) const ALL: [Self; Self::COUNT] = [
-        Self::White,
-        Self::Force,
-        Self::Colour,
-        Self::ColourRate,
-        Self::Tracking,
-    ];
+    pub(super) const ALL: [Self; Self::COUNT] =
+        [Self::White, Self::Force, Self::Colour, Self::ColourRate, Self::Tracking];
 }
 
 /// A model with its values.

@@ -27,6 +27,8 @@ pub(super) struct MotionStep {
     pub(super) middle: Point,
     /// Transition matrix of position and velocity over the step.
     pub(super) transition: [[f64; 2]; 2],
+    /// The first row of the transition matrix half-way.
+    pub(super) half: [f64; 2],
     /// Weights of the force per inertia at the beginning and half-way in position and velocity at the end, times
     /// Simpson's weights; at the end it makes `end_weight` of velocity.
     pub(super) begin_weight: [f64; 2],
@@ -89,6 +91,7 @@ impl Dynamics {
             end: Point { position, velocity, acceleration },
             middle,
             transition,
+            half: first[0],
             begin_weight: [h_s / 6.0 * transition[0][1], h_s / 6.0 * transition[1][1]],
             middle_weight: [h_s / 1.5 * second[0][1], h_s / 1.5 * second[1][1]],
             end_weight: h_s / 6.0,

@@ -83,6 +83,7 @@ impl Reported {
             (Parameter::LagS, value(self.lag_s), false),
             (Parameter::RampS, value(self.ramp_s), false),
             (Parameter::PauseS, value(self.pause_s), false),
+            (Parameter::FilterS, value(self.filter_s), false),
             (Parameter::Disturbance, 0.0, true),
             (Parameter::Position, position, true),
             (Parameter::Velocity, velocity, true),

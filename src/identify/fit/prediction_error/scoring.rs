@@ -46,7 +46,7 @@ fn bounds(parameter: Parameter, observations: &Observations) -> (f64, f64) {
     match parameter {
         Parameter::Alpha => (1e-9 * observations.range * half_period * half_period / observations.span, f64::INFINITY),
         Parameter::DelayS => (0.0, half_period),
-        Parameter::LagS => (0.02 * interval, 2.0 * half_period),
+        Parameter::LagS | Parameter::FilterS => (0.02 * interval, 2.0 * half_period),
         Parameter::MemoryS => (0.1 * half_period, 5.0 * half_period),
         Parameter::Skew => (-0.9, 0.9),
         Parameter::RampS | Parameter::PauseS => (0.05 * interval, 2.0 * half_period),

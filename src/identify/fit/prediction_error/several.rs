@@ -176,7 +176,7 @@ impl Several {
             lag_s: own(&|r| r.lag_s),
             ramp_s: own(&|r| r.ramp_s),
             pause_s: own(&|r| r.pause_s),
-            filter_s: None,
+            filter_s: own(&|r| r.filter_s),
             deltas: together
                 .parts
                 .iter()

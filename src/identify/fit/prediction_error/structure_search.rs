@@ -25,7 +25,12 @@ pub(super) const JOINS: f64 = 7.0;
 /// The same for a term that takes the place of another.
 const EXCHANGES: f64 = 0.5;
 /// Terms that a record confuses: the first's place may be taken by the second.
-const RIVALS: [(Term, Term); 8] = [
+const RIVALS: [(Term, Term); 13] = [
+    (Term::Lag, Term::SensorFilter),
+    (Term::SensorFilter, Term::Lag),
+    (Term::RateLimit, Term::SensorFilter),
+    (Term::SensorFilter, Term::RateLimit),
+    (Term::Delay, Term::SensorFilter),
     (Term::RateLimit, Term::Lag),
     (Term::Lag, Term::RateLimit),
     (Term::Delay, Term::Lag),

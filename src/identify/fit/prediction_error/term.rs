@@ -15,6 +15,7 @@ impl Term {
             Self::CubicDrag => &[Parameter::CubicDrag],
             Self::SkewDrag => &[Parameter::Skew],
             Self::FluidMemory => &[Parameter::Memory, Parameter::MemoryS],
+            Self::SensorFilter => &[Parameter::FilterS],
             Self::Delay => &[Parameter::DelayS],
             _ => &[],
         }
@@ -47,7 +48,7 @@ impl Term {
     pub(super) fn applies(self, model: &VehicleModel, observations: &Observations) -> bool {
         !self.is_in(model)
             && match self {
-                // The force behind a lag is in closed form for a command that jumps at once.
+                // Behind a lag or a ramp the force has no derivative by the length of a pause: these terms exclude it.
                 Self::Lag => !Self::ReversalPause.is_in(model),
                 Self::RateLimit => observations.switched && !Self::ReversalPause.is_in(model),
                 Self::ReversalPause => {
@@ -70,7 +71,7 @@ impl Term {
         for &parameter in self.parameters() {
             // The mean delay stays.
             let late = match parameter {
-                Parameter::LagS => model.value(parameter),
+                Parameter::LagS | Parameter::FilterS => model.value(parameter),
                 Parameter::RampS | Parameter::PauseS => 0.5 * model.value(parameter),
                 _ => 0.0,
             };
@@ -118,9 +119,9 @@ impl Term {
                 [0.15, 0.5, 1.5].map(slow).to_vec()
             }
             Self::Delay => vec![with(Parameter::DelayS, model.value(Parameter::DelayS))],
-            Self::Lag | Self::RateLimit | Self::ReversalPause => {
+            Self::Lag | Self::RateLimit | Self::ReversalPause | Self::SensorFilter => {
                 let parameter = self.parameters()[0];
-                let mean = if self == Self::Lag { 1.0 } else { 0.5 };
+                let mean = if matches!(self, Self::RateLimit | Self::ReversalPause) { 0.5 } else { 1.0 };
                 let delay_s = model.value(Parameter::DelayS);
                 let late = |part: f64| {
                     // At a known delay the lag comes on top; else it takes the place of a part of the delay.

@@ -251,27 +251,34 @@ fn scores_of_the_noise_are_the_likelihood_s_slopes() {
 
 #[test]
 fn scores_of_what_begins_uncertain_are_slopes_but_for_the_variances() {
-    let mut model = model();
-    model.set(Parameter::Memory, 0.3, true);
-    model.set(Parameter::MemoryS, 0.7, true);
-    // The gain, whose change the score leaves out, is next to nothing.
-    model.set_noise(NoiseParameter::White, 1e8, true);
-    let mut predicted = Observations::new(&record_of(&model), Clock::Stamps, SwitchingInstant::AtSamples);
-    let pass = filter::run(&predicted, &model, Evaluation::Likelihood).expect("a pass");
-    for (output, innovation) in predicted.signal.output.iter_mut().zip(&pass.innovations) {
-        *output -= innovation.error;
-    }
-    for sample in [5, 20, 40, 59] {
-        let mut off = predicted.clone();
-        off.signal.output[sample] += 1e3;
-        let score = filter::run(&off, &model, Evaluation::Score).expect("a pass").score();
-        for parameter in model.structure() {
-            let slope = |observations: &Observations| {
-                difference(observations, &model, 1e-4, |m, by| m.values[parameter as usize] += by)
-            };
-            // What a parameter does to the variances is the same whatever the readings are.
-            let (expected, found) = (slope(&off) - slope(&predicted), score.structure[parameter as usize]);
-            assert!((found - expected).abs() < 1e-3 * expected.abs() + 1e-8, "{parameter:?}: {found} for {expected}");
+    let mut filtered = model();
+    filtered.set(Parameter::FilterS, 0.25, true);
+    let mut remembering = model();
+    remembering.set(Parameter::Memory, 0.3, true);
+    remembering.set(Parameter::MemoryS, 0.7, true);
+    for mut model in [filtered, remembering] {
+        // The gain, whose change the score leaves out, is next to nothing.
+        model.set_noise(NoiseParameter::White, 1e8, true);
+        let mut predicted = Observations::new(&record_of(&model), Clock::Stamps, SwitchingInstant::AtSamples);
+        let pass = filter::run(&predicted, &model, Evaluation::Likelihood).expect("a pass");
+        for (output, innovation) in predicted.signal.output.iter_mut().zip(&pass.innovations) {
+            *output -= innovation.error;
+        }
+        for sample in [5, 20, 40, 59] {
+            let mut off = predicted.clone();
+            off.signal.output[sample] += 1e3;
+            let score = filter::run(&off, &model, Evaluation::Score).expect("a pass").score();
+            for parameter in model.structure() {
+                let slope = |observations: &Observations| {
+                    difference(observations, &model, 1e-4, |m, by| m.values[parameter as usize] += by)
+                };
+                // What a parameter does to the variances is the same whatever the readings are.
+                let (expected, found) = (slope(&off) - slope(&predicted), score.structure[parameter as usize]);
+                assert!(
+                    (found - expected).abs() < 1e-3 * expected.abs() + 1e-8,
+                    "{parameter:?}: {found} for {expected}"
+                );
+            }
         }
     }
 }

@@ -14,15 +14,16 @@ pub(super) struct Drives<'a> {
     pub(super) late: Option<LateSpeed>,
     /// Factor of the drag by the late speed.
     pub(super) memory: f64,
+    pub(super) h_s: f64,
 }
 
 impl Drives<'_> {
-    /// Derivatives, by the parameter, of position and velocity at the end of the step.
-    pub(super) fn by(&self, parameter: Parameter) -> [f64; 2] {
-        if matches!(parameter, Parameter::PauseS | Parameter::Position | Parameter::Velocity) {
-            return [0.0; 2];
+    /// Derivatives, by the parameter, of position and velocity at the end of the step, and of the position half-way.
+    pub(super) fn by(&self, parameter: Parameter) -> [f64; 3] {
+        if matches!(parameter, Parameter::FilterS | Parameter::PauseS | Parameter::Position | Parameter::Velocity) {
+            return [0.0; 3];
         }
-        let Self { dynamics, step, begin, forces, late, memory } = self;
+        let Self { dynamics, step, begin, forces, late, memory, h_s } = self;
         let late = |k: usize| late.map_or((0.0, 0.0), |late| (late.values[k], late.by_time[k]));
         let by = |point: &Point, force: &Force, (late, late_by_time): (f64, f64)| {
             let side = 1.0 + dynamics.skew * point.velocity.signum();
@@ -39,7 +40,7 @@ impl Drives<'_> {
                 Parameter::DelayS => force.by_delay,
                 Parameter::LagS => force.by_lag,
                 Parameter::RampS => force.by_ramp,
-                Parameter::PauseS | Parameter::Position | Parameter::Velocity => 0.0,
+                Parameter::FilterS | Parameter::PauseS | Parameter::Position | Parameter::Velocity => 0.0,
             }
         };
         let per_alpha = 1.0 / dynamics.alpha;
@@ -48,6 +49,7 @@ impl Drives<'_> {
         [
             step.begin_weight[0] * first + step.middle_weight[0] * second,
             step.begin_weight[1] * first + step.middle_weight[1] * second + step.end_weight * third,
+            0.25 * h_s * h_s * (first / 3.0 + second / 6.0),
         ]
     }
 }

@@ -10,23 +10,24 @@ impl<const N: usize> Filter<'_, N> {
     pub(super) fn slopes(&self) -> [f64; STRUCTURE] {
         let mut slopes = [0.0; STRUCTURE];
         for (parameter, column) in &self.sensitivities.structure {
-            slopes[*parameter as usize] = -(column[0] + column[3]);
+            slopes[*parameter as usize] = -(column[self.read] + column[3]);
         }
         slopes
     }
 
     /// Takes in a reading; adds its share of the score where there are sensitivities.
     pub(super) fn observe(&mut self, reading: f64, weight: f64, score: &mut Score) -> Innovation {
-        let error = reading - self.state[0] - self.state[3];
+        let read = self.read;
+        let error = reading - self.state[read] - self.state[3];
         let p = &self.covariance;
-        let seen: Vector<N> = core::array::from_fn(|row| p[row][0] + p[row][3]);
-        let variance = seen[0] + seen[3] + self.sizes.white;
+        let seen: Vector<N> = core::array::from_fn(|row| p[row][read] + p[row][3]);
+        let variance = seen[read] + seen[3] + self.sizes.white;
         let gain = seen.map(|value| value / variance);
         let structure = &mut self.sensitivities.structure;
         let mut by_structure = [(0, 0.0); STRUCTURE];
         let slopes = &mut by_structure[..structure.len()];
         for (slope, (parameter, column)) in slopes.iter_mut().zip(structure.iter()) {
-            *slope = (*parameter as usize, -(column[0] + column[3]));
+            *slope = (*parameter as usize, -(column[read] + column[3]));
         }
         let precision = weight / variance;
         for (index, (i, slope)) in slopes.iter().enumerate() {
@@ -48,10 +49,10 @@ impl<const N: usize> Filter<'_, N> {
         let count = self.sensitivities.noise.len();
         for ((noise, column, derivative), slope) in self.sensitivities.noise.iter_mut().zip(&mut slopes) {
             let d = &*derivative;
-            let seen_by: Vector<N> = core::array::from_fn(|row| d[row][0] + d[row][3]);
+            let seen_by: Vector<N> = core::array::from_fn(|row| d[row][read] + d[row][3]);
             let direct = if *noise == NoiseParameter::White { self.sizes.white } else { 0.0 };
-            let variance_by = seen_by[0] + seen_by[3] + direct;
-            let error_by = -(column[0] + column[3]);
+            let variance_by = seen_by[read] + seen_by[3] + direct;
+            let error_by = -(column[read] + column[3]);
             *slope = (*noise as usize, error_by, variance_by);
             for row in 0..N {
                 column[row] += (seen_by[row] - gain[row] * variance_by) / variance * error + gain[row] * error_by;

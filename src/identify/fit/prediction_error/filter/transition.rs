@@ -2,11 +2,14 @@
 
 use crate::identify::fit::prediction_error::motion::MotionStep;
 
-/// Position, velocity, process force, coloured error, then the late speed where drag follows it.
+/// Position, velocity, process force, coloured error, then the filtered position where the sensor filters, and the late speed where
+/// drag follows it.
 pub(super) type Vector<const N: usize> = [f64; N];
 pub(super) type Square<const N: usize> = [[f64; N]; N];
+/// Place of the filtered position.
+pub(super) const FILTERED: usize = 4;
 /// Place of the speed that late drag follows.
-pub(super) const LATE: usize = 4;
+pub(super) const LATE: usize = 5;
 
 /// Transition of the states over a step.
 #[derive(Clone, Copy)]
@@ -15,6 +18,8 @@ pub(super) struct Transition {
     /// Weights of the process force in position and velocity.
     pub(super) by_force: [f64; 2],
     pub(super) colour: f64,
+    /// Weights of position, velocity, process force and filtered position in the filtered position.
+    pub(super) filtered: [f64; 4],
     /// Weights of the late speed in position and velocity.
     pub(super) by_late: [f64; 2],
     /// Weights of the late speed, and of the velocity at beginning and end, in the late speed.
@@ -29,9 +34,21 @@ impl Transition {
             motion: step.transition,
             by_force: [gained(0) / alpha, (gained(1) + step.end_weight) / alpha],
             colour: 0.0,
+            filtered: [0.0; 4],
             by_late: [0.0; 2],
             late: [0.0; 3],
         }
+    }
+
+    /// The sensor filters the position.
+    pub(super) fn filter(&mut self, sensor: &LowPass, step: &MotionStep, h_s: f64, alpha: f64) {
+        let [first, middle, last] = sensor.weights;
+        self.filtered = [
+            first + middle * step.half[0] + last * step.transition[0][0],
+            middle * step.half[1] + last * step.transition[0][1],
+            middle * 0.125 * h_s * h_s / alpha + last * self.by_force[0],
+            sensor.kept,
+        ];
     }
 
     /// Drag follows the late speed, to which the velocity adds as if it were constant over the step.
@@ -53,6 +70,10 @@ impl Transition {
         next[1] = self.motion[1][0] * v[0] + self.motion[1][1] * v[1] + self.by_force[1] * v[2];
         next[2] = v[2];
         next[3] = self.colour * v[3];
+        if N > FILTERED {
+            let [x, velocity, force, own] = self.filtered;
+            next[FILTERED] = x * v[0] + velocity * v[1] + force * v[2] + own * v[FILTERED];
+        }
         if N > LATE {
             next[0] += self.by_late[0] * v[LATE];
             next[1] += self.by_late[1] * v[LATE];
