@@ -158,6 +158,16 @@ pub struct Contradicting {
     pub share: f64,
 }
 
+impl Contradicting {
+    /// Readings in their order, with shares whose sum is 1.
+    pub(super) fn normalised(mut readings: Vec<Self>) -> Vec<Self> {
+        let sum: f64 = readings.iter().map(|part| part.share).sum();
+        readings.iter_mut().for_each(|part| part.share /= sum);
+        readings.sort_by_key(|part| (part.record, part.sample));
+        readings
+    }
+}
+
 /// A reading in error by more than is granted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Outlier {

@@ -4,8 +4,6 @@
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
-
 use super::contraction::{ConstraintKind, Contracted, Contractor, Empty};
 use super::vector_field::FieldTerm;
 use crate::numeric::Interval;
@@ -34,27 +32,16 @@ impl Kept {
 /// An open box.
 struct OpenBox {
     at: Vec<Interval>,
+    /// How wide it is, by [`Contractor::widest`].
+    width: f64,
     /// Whether it is contracted by modulating functions: not where the motion was followed over the box that it is a part of.
     modulating: bool,
 }
 
-/// Open boxes, the widest first: when the budget is spent no box is wider than necessary.
-#[derive(Default)]
-struct Queue {
-    /// By width and number; nonnegative floats have the order of their bits.
-    open: BTreeMap<(u64, usize), OpenBox>,
-    pushed: usize,
-}
-
-impl Queue {
-    fn push(&mut self, width: f64, open: OpenBox) {
-        self.open.insert((width.to_bits(), self.pushed), open);
-        self.pushed += 1;
-    }
-
-    fn pop(&mut self) -> Option<OpenBox> {
-        self.open.pop_last().map(|(_, open)| open)
-    }
+/// Takes the widest box, the latest of several: when the budget is spent no box is wider than necessary.
+fn take_widest(open: &mut Vec<OpenBox>) -> Option<OpenBox> {
+    let widest = (0..open.len()).max_by(|a, b| open[*a].width.total_cmp(&open[*b].width))?;
+    Some(open.remove(widest))
 }
 
 /// An end of the range of an unknown.
@@ -114,15 +101,9 @@ impl Division {
         }
     }
 
-    /// The box that extends furthest to an end, and its end.
-    fn furthest(&self, end: RangeEnd) -> Option<(usize, f64)> {
-        let ends = self.kept.iter().enumerate().map(|(index, kept)| (index, end.of(&kept.at)));
-        ends.max_by(|a, b| a.1.total_cmp(&b.1))
-    }
-
-    /// The box with the largest uncertainty.
-    fn coarsest(&self) -> Option<(usize, f64)> {
-        let all = self.kept.iter().enumerate().map(|(index, kept)| (index, kept.uncertainty()));
+    /// The box with most by a measure, and the measure.
+    fn most(&self, measure: impl Fn(&Kept) -> f64) -> Option<(usize, f64)> {
+        let all = self.kept.iter().enumerate().map(|(index, kept)| (index, measure(kept)));
         all.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
@@ -150,9 +131,8 @@ impl Contractor {
     /// A box contracted and divided until the motion is followed over each remaining box, or the budget is spent.
     pub(super) fn prune(&mut self, whole: Vec<Interval>, budget: usize) -> Division {
         let mut division = Division { last_empty: None, kept: Vec::new(), complete: true };
-        let mut queue = Queue::default();
-        queue.push(f64::INFINITY, OpenBox { at: whole, modulating: true });
-        while let Some(OpenBox { mut at, modulating }) = queue.pop() {
+        let mut open = vec![OpenBox { at: whole, width: f64::INFINITY, modulating: true }];
+        while let Some(OpenBox { mut at, modulating, .. }) = take_widest(&mut open) {
             if self.passes() >= budget {
                 division.complete = false;
                 division.kept.push(Kept { at, contracted: Contracted::Wide(0) });
@@ -178,9 +158,7 @@ impl Contractor {
                 division.kept.push(Kept { at, contracted: Contracted::Wide(unknown) });
                 continue;
             };
-            for at in parts {
-                queue.push(self.widest(&at).0, OpenBox { at, modulating });
-            }
+            open.extend(parts.map(|at| OpenBox { width: self.widest(&at).0, at, modulating }));
         }
         division
     }
@@ -197,7 +175,7 @@ impl Contractor {
 
     /// Bisects the box with the largest uncertainty, if that is above `coarse`; `false` where there is none to bisect.
     pub(super) fn bisect_coarsest(&mut self, division: &mut Division, coarse: f64) -> bool {
-        let coarsest = division.coarsest().filter(|(_, uncertainty)| *uncertainty > coarse.max(FINEST));
+        let coarsest = division.most(Kept::uncertainty).filter(|(_, uncertainty)| *uncertainty > coarse.max(FINEST));
         let Some((index, _)) = coarsest else { return false };
         let Contracted::Followed { widest, .. } = division.kept[index].contracted else { return false };
         let Some(halves) = self.bisect(&division.kept[index].at, widest) else { return false };
@@ -217,7 +195,7 @@ impl Contractor {
         budget: usize,
     ) -> Option<Vec<Interval>> {
         while self.passes() < budget {
-            let (index, furthest) = division.furthest(end)?;
+            let (index, furthest) = division.most(|kept| end.of(&kept.at))?;
             if furthest <= value {
                 return None;
             }

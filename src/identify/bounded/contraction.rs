@@ -95,11 +95,8 @@ impl Contractor {
 
     /// Refines the states: velocities, and forces behind a lag, at the beginning of each shooting interval by the intervals beside it.
     pub(super) fn refine_states(&self, relaxation: &mut Relaxation, at: &mut [Interval]) -> Result<(), Empty> {
-        let unknowns = &self.problem.unknowns;
         for (interval, _) in self.problem.followed() {
-            let beside = relaxation.beside(interval);
-            let own: Vec<usize> =
-                (1..unknowns.state_size()).map(|component| unknowns.start(interval, component)).collect();
+            let (beside, own) = (relaxation.beside(interval), self.problem.unknowns.refined(interval));
             if let Err(multipliers) = beside.contract(at, &own) {
                 return Err(Empty { method: ConstraintKind::Shooting, multipliers, relaxation: Some(beside) });
             }

@@ -47,18 +47,7 @@ fn confine(relaxation: &mut Relaxation, within: &[Interval], from: &[Interval], 
     }
 }
 
-/// A point after a step; the excess, which is no unknown of the point, is omitted.
-fn moved(point: &[f64], step: &[f64]) -> Vec<f64> {
-    point.iter().zip(step).map(|(value, step)| value + step).collect()
-}
-
 impl Contractor {
-    /// The largest misfit of a parameter over whole records. `None` where its motion cannot be enclosed.
-    pub(super) fn misfit(&self, at: &[f64]) -> Option<f64> {
-        let mut misfits = self.problem.single_shooting().map(|span| self.problem.misfit(span, at));
-        misfits.try_fold(0.0, |largest: f64, misfit| Some(largest.max(misfit?)))
-    }
-
     /// Adds the excess of the misfit over 1 to the unknowns: `a z - E excess <= b` for the rows of readings. Its place.
     pub(super) fn add_excess(&self, relaxation: &mut Relaxation) -> usize {
         let excess = relaxation.deviations.len();
@@ -89,31 +78,65 @@ impl Contractor {
         Some(relaxation)
     }
 
-    /// A parameter with a small misfit, from the middle of a box and within another box.
-    pub(super) fn nearest(&self, from: &[Interval], within: &[Interval]) -> Option<ParameterPoint> {
-        let (mut centre, mut best) = (midpoints(from), None::<ParameterPoint>);
-        // The trust region, against the box from which the descent begins.
+    /// The best of successive points, each by a linear programme about the best so far: of the excess where there is no `objective`, and
+    /// within the trust region. `gain` compares the best with the next; `None` refuses the next.
+    fn climb(
+        &self,
+        mut best: ParameterPoint,
+        [from, within]: [&[Interval]; 2],
+        allowed: Interval,
+        objective: Option<(usize, f64)>,
+        gain: impl Fn(&ParameterPoint, &ParameterPoint) -> Option<f64>,
+    ) -> ParameterPoint {
+        // A share of the widths of the box `from`.
         let mut trust = 1.0;
         for _ in 0..MOST_STEPS {
-            let Some(mut relaxation) = self.about(&centre) else { break };
+            let Some(mut relaxation) = self.about(&best.at) else { break };
             let excess = self.add_excess(&mut relaxation);
             confine(&mut relaxation, within, from, trust);
-            relaxation.deviations[excess] = Interval::new(-1.0, MOST_EXCESS)?;
-            let Outcome::Bounded { at: step, .. } = relaxation.programme().maximise(&[(excess, -1.0)]) else { break };
-            let next = moved(&centre, &step);
-            let before = best.as_ref().map_or(f64::INFINITY, |best| best.misfit);
-            match self.misfit(&next) {
-                Some(misfit) if misfit < before => {
-                    best = Some(ParameterPoint { at: next.clone(), misfit });
-                    centre = next;
-                    if before - misfit < LEAST_GAIN * misfit {
-                        break;
-                    }
-                }
-                _ => trust *= SHRINK,
+            relaxation.deviations[excess] = allowed;
+            let objective = objective.unwrap_or((excess, -1.0));
+            let Outcome::Bounded { at: step, .. } = relaxation.programme().maximise(&[objective]) else { break };
+            // The excess, the last of the step, is no unknown of the point.
+            let at: Vec<f64> = best.at.iter().zip(&step).map(|(value, step)| value + step).collect();
+            let next = self.problem.misfit(&at).map(|misfit| ParameterPoint { at, misfit });
+            let Some((gain, next)) = next.and_then(|next| Some((gain(&best, &next)?, next))) else {
+                trust *= SHRINK;
+                continue;
+            };
+            if gain > 0.0 {
+                best = next;
+            }
+            if gain < LEAST_GAIN {
+                break;
             }
         }
         best
+    }
+
+    /// A parameter with a small misfit, from the middle of a box and within another box.
+    pub(super) fn nearest(&self, from: &[Interval], within: &[Interval]) -> Option<ParameterPoint> {
+        let start = ParameterPoint { at: midpoints(from), misfit: f64::INFINITY };
+        let allowed = Interval::new(-1.0, MOST_EXCESS)?;
+        let found = self.climb(start, [from, within], allowed, None, |best, next| {
+            (next.misfit < best.misfit).then(|| (best.misfit - next.misfit) / next.misfit)
+        });
+        Some(found).filter(|found| found.misfit.is_finite())
+    }
+
+    /// The feasible point with an unknown furthest up (or, `sign` negative, down) that is found in a box from a feasible point.
+    pub(super) fn furthest(
+        &self,
+        from: &ParameterPoint,
+        within: &[Interval],
+        unknown: usize,
+        sign: f64,
+    ) -> ParameterPoint {
+        let inside = Interval::point(-INSIDE * (1.0 - from.misfit));
+        self.climb(from.clone(), [within, within], inside, Some((unknown, sign)), |best, next| {
+            let gain = sign * (next.at[unknown] - best.at[unknown]) / within[unknown].width();
+            next.is_feasible().then_some(gain)
+        })
     }
 
     /// A box with room for a parameter that satisfies the readings nearly.
@@ -130,41 +153,5 @@ impl Contractor {
             *loose = loose.intersection(*widest).unwrap_or(*widest);
         }
         loose
-    }
-
-    /// The feasible point with an unknown furthest up (or, `sign` negative, down) that linear programmes from a feasible point find in a
-    /// box, each about the furthest feasible point so far.
-    pub(super) fn furthest(
-        &self,
-        from: &ParameterPoint,
-        within: &[Interval],
-        unknown: usize,
-        sign: f64,
-    ) -> ParameterPoint {
-        let inside = INSIDE * (1.0 - from.misfit);
-        let (mut best, mut trust) = (from.clone(), 1.0);
-        for _ in 0..MOST_STEPS {
-            let Some(mut relaxation) = self.about(&best.at) else { break };
-            let excess = self.add_excess(&mut relaxation);
-            confine(&mut relaxation, within, within, trust);
-            relaxation.deviations[excess] = Interval::point(-inside);
-            let Outcome::Bounded { at: step, .. } = relaxation.programme().maximise(&[(unknown, sign)]) else {
-                break;
-            };
-            let at = moved(&best.at, &step);
-            match self.misfit(&at) {
-                Some(misfit) if misfit <= 1.0 => {
-                    let gain = sign * (at[unknown] - best.at[unknown]);
-                    if gain > 0.0 {
-                        best = ParameterPoint { at, misfit };
-                    }
-                    if gain < LEAST_GAIN * within[unknown].width() {
-                        break;
-                    }
-                }
-                _ => trust *= SHRINK,
-            }
-        }
-        best
     }
 }

@@ -93,17 +93,17 @@ impl Problem {
         self.follow(span, at, centre, true, self.times(span))
     }
 
-    /// The outputs of a point over a span.
-    pub(super) fn outputs(&self, span: Span, point: &[f64]) -> Option<Vec<Interval>> {
-        let motion = self.follow(span, &points(point), point, false, self.times(span))?;
-        Some(motion.iter().map(|node| node.at[0]).collect())
+    /// Upper bound of the largest misfit of a point over whole records, in largest errors. `None` where its motion cannot be enclosed.
+    pub(super) fn misfit(&self, point: &[f64]) -> Option<f64> {
+        self.single_shooting()
+            .try_fold(0.0, |largest, span| Some(self.misfits(span, point)?.into_iter().fold(largest, f64::max)))
     }
 
-    /// Upper bound of the largest misfit of a point over a span, in largest errors. `None` where its motion cannot be enclosed.
+    /// Upper bounds of the misfits of a point at the samples of a span.
     ///
     /// A reading y was taken within the jitter J of its stamp t. The output is continuous: it is within E of y at some
     /// instant between two of `[t - J, t + J]`, not above y + E at either end and not below y - E at the opposite end.
-    pub(super) fn misfit(&self, span: Span, point: &[f64]) -> Option<f64> {
+    pub(super) fn misfits(&self, span: Span, point: &[f64]) -> Option<Vec<f64>> {
         let Readings { time_s, value, error, jitter_s, .. } = &self.records[self.unknowns.shooting[span.from].record];
         let mut times = self.times(span).to_vec();
         let near = |stamp: f64| {
@@ -117,15 +117,16 @@ impl Problem {
             times.sort_by(f64::total_cmp);
         }
         let motion = self.follow(span, &points(point), point, false, &times)?;
-        Some(self.samples(span).fold(0.0, |largest, sample| {
+        let misfit = |sample: usize| {
             let [from, to] = near(time_s[sample]);
             let within = times.partition_point(|time| *time < from)..times.partition_point(|time| *time <= to);
             let off = motion[within].iter().map(|node| node.at[0] - Interval::point(value[sample]));
             let (above, below) = off.fold((f64::INFINITY, f64::NEG_INFINITY), |(above, below), off| {
                 (above.min(off.upper()), below.max(off.lower()))
             });
-            largest.max((Interval::point(above.max(-below)) / Interval::point(*error)).upper())
-        }))
+            (Interval::point(above.max(-below)) / Interval::point(*error)).upper()
+        };
+        Some(self.samples(span).map(misfit).collect())
     }
 
     fn follow(
@@ -321,6 +322,11 @@ impl Relaxation {
             near.push(self.inequalities.coefficients[row].clone(), self.inequalities.limits[row], *origin);
         }
         near
+    }
+
+    /// The box of the deviations about the centre.
+    pub(super) fn sides(&self) -> Vec<Interval> {
+        self.deviations.iter().zip(&self.centre).map(|(z, centre)| *z + Interval::point(*centre)).collect()
     }
 
     pub(super) fn programme(&self) -> Programme {

@@ -63,14 +63,9 @@ impl Tangent {
         let point = range.midpoint();
         let slope = 2.0 * (point.abs() - middle);
         let value = signed_square(Interval::point(point)) - Interval::point(2.0 * middle) * Interval::point(point);
-        let far = (range - Interval::point(point)).square();
-        let rest = if range.lower() >= 0.0 {
-            far.hull(Interval::ZERO)
-        } else if range.upper() <= 0.0 {
-            (-far).hull(Interval::ZERO)
-        } else {
-            far.hull(-far)
-        };
+        let sign = |possible: bool, sign: f64| Interval::point(if possible { sign } else { 0.0 });
+        let signs = sign(range.lower() < 0.0, -1.0).hull(sign(range.upper() > 0.0, 1.0));
+        let rest = (range - Interval::point(point)).square() * signs;
         Self { slope, constant: value - Interval::point(slope) * Interval::point(point), rest }
     }
 
@@ -164,7 +159,7 @@ impl Problem {
             let y = support.map(|sample| Interval::point(readings.value[sample]));
             let second = (y[2] - y[1]) / hat.right() - (y[1] - y[0]) / hat.left();
             let share = Interval::ONE / hat.right() + Interval::ONE / hat.left();
-            let Forcing { force, by_delay, by_lag_rate } = match rate {
+            let Forcing { force, by_delay } = match rate {
                 Some(rate) => self.lagged_forcing(record, hat, delay_s, rate),
                 None => self.forcing(record, hat, delay_s),
             };
@@ -176,12 +171,11 @@ impl Problem {
                     FieldTerm::Quadratic => -modulated.drag(|range| Tangent::square(range, self.middle_speed)),
                     FieldTerm::Cubic => -modulated.drag(Tangent::cube),
                     FieldTerm::Stiffness => -modulated.position(),
-                    FieldTerm::LagRate => at[0] * by_lag_rate,
-                    FieldTerm::Disturbance => continue,
+                    FieldTerm::LagRate | FieldTerm::Disturbance => continue,
                 };
                 coefficients.push((unknown, coefficient));
             }
-            // The force is that at the middle of the delay and of the lag's rate, hence the centre of the relaxation.
+            // The force is that at the middle of the delay, hence the centre of the relaxation.
             coefficients.extend(self.unknowns.delay().map(|delay| (delay, at[0] * by_delay)));
             coefficients.push((self.unknowns.disturbance(record), hat.area()));
             let error = Interval::two() * error * share;
@@ -194,7 +188,7 @@ impl Problem {
     /// where the box holds no motion.
     pub(super) fn modulate(&self, supports: &[Vec<Support>], at: &mut [Interval]) -> Option<Relaxation> {
         let mut centre = vec![0.0; at.len()];
-        for place in self.unknowns.delay().into_iter().chain(self.unknowns.place_of(FieldTerm::LagRate)) {
+        if let Some(place) = self.unknowns.delay() {
             centre[place] = at[place].midpoint();
         }
         let mut relaxation = self.about(at, centre);

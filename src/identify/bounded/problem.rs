@@ -326,18 +326,9 @@ impl Problem {
     /// A box of parameters by its quantities, in the coordinates of the search.
     pub(super) fn ranges(&self, at: &[Interval]) -> Vec<QuantityRange> {
         let unknowns = &self.unknowns;
-        let quantity = |term: &FieldTerm| match term {
-            FieldTerm::Gain => Some(Quantity::Gain),
-            FieldTerm::Linear => Some(Quantity::LinearRate),
-            FieldTerm::Quadratic => Some(Quantity::QuadraticRate),
-            FieldTerm::Cubic => Some(Quantity::CubicRate),
-            FieldTerm::Stiffness => Some(Quantity::StiffnessRate),
-            FieldTerm::LagRate => Some(Quantity::LagRate),
-            FieldTerm::Disturbance => None,
-        };
         let side =
             |term: &FieldTerm| if *term == FieldTerm::Linear { self.linear_drag(at) } else { self.term(*term, at) };
-        let terms = unknowns.terms.iter().filter_map(|term| Some((quantity(term)?, side(term))));
+        let terms = unknowns.terms.iter().map(|term| (term.quantity(), side(term)));
         let delay = unknowns.delay().map(|place| (Quantity::DelayS, at[place]));
         let disturbances =
             (0..unknowns.records()).map(|record| (Quantity::DeltaRate(record), at[unknowns.disturbance(record)]));

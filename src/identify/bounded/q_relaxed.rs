@@ -18,7 +18,7 @@ use super::settings::BoundedModel;
 use super::solve::solve;
 use super::unknowns::Shooting;
 use crate::identify::IdentifyError;
-use crate::numeric::{Interval, Limit, OutOfDomain, Real};
+use crate::numeric::{Interval, Limit, OutOfDomain};
 
 /// Passes for the proof that a reading contradicts the set of a pair.
 const PROOF: usize = 100;
@@ -37,8 +37,6 @@ fn pairs(groups: usize) -> impl Iterator<Item = Groups> {
 struct Relaxed<'a> {
     settings: &'a BoundedModel,
     readings: &'a [Readings],
-    /// Number of each record's first reading, counted through all records.
-    offsets: Vec<usize>,
     scales: Vec<Scales>,
     found: Vec<Outlier>,
     /// The empty answer with most passes.
@@ -72,20 +70,15 @@ pub(super) fn enclose(readings: &[Readings], settings: &BoundedModel) -> Result<
         }
         .into());
     }
-    let offsets = readings.iter().scan(0, |next, own| {
-        let offset = *next;
-        *next += own.value.len();
-        Some(offset)
-    });
-    let offsets = offsets.collect();
-    Relaxed { settings, readings, offsets, scales: Vec::new(), found: Vec::new(), hardest: None, passes: 0 }.enclose()
+    Relaxed { settings, readings, scales: Vec::new(), found: Vec::new(), hardest: None, passes: 0 }.enclose()
+}
+
+/// Whether a reading is in one of two groups: each record is dealt by itself.
+fn within(pair: Groups, groups: usize, place: Outlier) -> bool {
+    pair.contains(&(place.sample % groups))
 }
 
 impl Relaxed<'_> {
-    fn within(&self, pair: Groups, groups: usize, place: Outlier) -> bool {
-        pair.contains(&((self.offsets[place.record] + place.sample) % groups))
-    }
-
     /// The numbers of a record's readings that are kept.
     fn numbers(&self, record: usize, keep: impl Fn(Outlier) -> bool) -> Vec<usize> {
         (0..self.readings[record].value.len()).filter(|&sample| keep(Outlier { record, sample })).collect()
@@ -141,7 +134,7 @@ impl Relaxed<'_> {
             if least.is_some_and(|least| budget < least) {
                 continue;
             }
-            let piece = self.leave(|own, place| own.within(pair, groups, place), at, budget)?;
+            let piece = self.leave(|place| within(pair, groups, place), at, budget)?;
             pieces.retain(|(own, _)| *own != pair);
             if piece.at.is_none() {
                 if self.hardest.as_ref().is_none_or(|hardest| hardest.passes < piece.bounds.passes) {
@@ -159,34 +152,22 @@ impl Relaxed<'_> {
 
     /// The records' scales where they are calmest: no outlier makes speeds seem larger there.
     fn measure(&mut self, groups: usize) {
-        for pair in pairs(groups) {
-            let own = self.only(|place| self.within(pair, groups, place)).iter().map(Readings::scales).collect();
-            if self.scales.is_empty() {
-                self.scales = own;
-                continue;
-            }
-            for (calmest, own) in self.scales.iter_mut().zip(own) {
-                if own.fastest < calmest.fastest {
-                    *calmest = own;
-                }
-            }
-        }
+        let of = |pair| self.only(|place| within(pair, groups, place)).iter().map(Readings::scales).collect();
+        let calmer = |a: Vec<Scales>, b: Vec<Scales>| {
+            a.into_iter().zip(b).map(|(a, b)| if b.fastest < a.fastest { b } else { a }).collect()
+        };
+        self.scales = pairs(groups).map(of).reduce(calmer).unwrap_or_default();
     }
 
     /// The remainder of a box by the kept readings, for at most `budget` passes over all.
-    fn leave(
-        &mut self,
-        keep: impl Fn(&Self, Outlier) -> bool,
-        at: &[Interval],
-        budget: usize,
-    ) -> Result<Left, IdentifyError> {
-        let problem = self.problem(|place| keep(self, place))?.within(at);
+    fn leave(&mut self, keep: impl Fn(Outlier) -> bool, at: &[Interval], budget: usize) -> Result<Left, IdentifyError> {
+        let problem = self.problem(&keep)?.within(at);
         let settings = BoundedModel { budget, ..self.settings.clone() };
         let solved = solve(&problem, &settings, || None)?;
         let missed = solved.feasible.as_ref().map(|(point, problem)| self.missed(problem, point));
         let mut bounds = solved.bounds;
         for part in &mut bounds.contradicting {
-            let own = |place: Outlier| !self.found.contains(&place) && keep(self, place);
+            let own = |place: Outlier| !self.found.contains(&place) && keep(place);
             part.sample = self.numbers(part.record, own)[part.sample];
         }
         self.passes += bounds.passes;
@@ -209,10 +190,8 @@ impl Relaxed<'_> {
         let at: Vec<f64> = unknowns.of_single_shooting().into_iter().map(|place| point.at[place]).collect();
         let mut missed: Vec<(f64, Outlier)> = Vec::new();
         for (index, interval) in all.unknowns.shooting.iter().enumerate() {
-            let readings = &self.readings[interval.record];
-            let outputs = all.outputs(Span::single(index), &at).unwrap_or_default();
-            for (sample, output) in (interval.first..).zip(outputs) {
-                let misfit = (output - Interval::point(readings.value[sample])).abs().upper() / readings.error;
+            let misfits = all.misfits(Span::single(index), &at).unwrap_or_default();
+            for (sample, misfit) in (interval.first..).zip(misfits) {
                 let place = Outlier { record: interval.record, sample };
                 if misfit > 1.0 && !self.found.contains(&place) {
                     missed.push((misfit, place));
@@ -234,9 +213,8 @@ impl Relaxed<'_> {
         for suspect in suspects {
             let mut everywhere = sure.len() < allowed;
             for (pair, piece) in pieces {
-                everywhere = everywhere
-                    && !self.within(*pair, groups, suspect)
-                    && self.contradicts(suspect, *pair, groups, piece)?;
+                everywhere =
+                    everywhere && !within(*pair, groups, suspect) && self.contradicts(suspect, *pair, groups, piece)?;
             }
             if everywhere {
                 sure.push(suspect);
@@ -248,7 +226,7 @@ impl Relaxed<'_> {
     /// Whether the set of a pair is empty once a further reading is a constraint.
     fn contradicts(&self, suspect: Outlier, pair: Groups, groups: usize, piece: &Left) -> Result<bool, IdentifyError> {
         let Some(at) = &piece.at else { return Ok(true) };
-        let problem = self.problem(|place| place == suspect || self.within(pair, groups, place))?.within(at);
+        let problem = self.problem(|place| place == suspect || within(pair, groups, place))?.within(at);
         Ok(Contractor::new(problem.clone()).prune(problem.search, PROOF).kept.is_empty())
     }
 
@@ -260,7 +238,7 @@ impl Relaxed<'_> {
         pieces: Vec<(Groups, Left)>,
         allowed: usize,
     ) -> Result<Bounds, IdentifyError> {
-        let all = self.leave(|_, _| true, at, self.settings.budget)?;
+        let all = self.leave(|_| true, at, self.settings.budget)?;
         if allowed == 0 {
             return Ok(self.answer(all.bounds, whole));
         }
@@ -270,7 +248,7 @@ impl Relaxed<'_> {
             let missed = pieces.iter().map(|(_, piece)| &piece.missed).filter(|missed| !missed.is_empty());
             let fewest = missed.min_by_key(|missed| missed.len()).cloned().unwrap_or_default();
             let suspects = &fewest[..fewest.len().min(allowed)];
-            tried = self.leave(|_, place| !suspects.contains(&place), at, self.settings.budget)?.bounds;
+            tried = self.leave(|place| !suspects.contains(&place), at, self.settings.budget)?.bounds;
         }
         // A record's first state differs with each pair, and is omitted.
         let of_all = |range: &QuantityRange| !matches!(range.quantity, Quantity::Position(_) | Quantity::Velocity(_));

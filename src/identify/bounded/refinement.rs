@@ -2,7 +2,7 @@
 
 use super::answer::Quantity;
 use super::branch_and_prune::{Division, FINEST, RangeEnd, hull};
-use super::contraction::{Contractor, Empty};
+use super::contraction::Contractor;
 use super::feasible_point::ParameterPoint;
 use super::linear_relaxation::points;
 use crate::numeric::Interval;
@@ -25,13 +25,6 @@ pub(super) struct Points {
     inner: Option<Vec<Interval>>,
 }
 
-/// The box of a refuted relaxation.
-fn box_of(empty: &Empty) -> Option<Vec<Interval>> {
-    let relaxation = empty.relaxation.as_ref()?;
-    let sides = relaxation.deviations.iter().zip(&relaxation.centre);
-    Some(sides.map(|(z, centre)| *z + Interval::point(*centre)).collect())
-}
-
 impl Points {
     pub(super) fn feasible(&self) -> Option<&ParameterPoint> {
         self.nearest.as_ref().filter(|point| point.is_feasible())
@@ -51,7 +44,8 @@ impl Points {
         let mut boxes: Vec<Vec<Interval>> = division.kept.iter().map(|kept| kept.at.clone()).take(2).collect();
         boxes.extend(division.hull());
         if boxes.is_empty() {
-            boxes = division.last_empty.iter().filter_map(box_of).map(|at| contractor.loosened(&at)).collect();
+            let refuted = division.last_empty.iter().filter_map(|empty| empty.relaxation.as_ref());
+            boxes = refuted.map(|relaxation| contractor.loosened(&relaxation.sides())).collect();
         }
         for at in boxes {
             if self.feasible().is_some() {

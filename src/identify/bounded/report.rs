@@ -5,7 +5,7 @@ use super::branch_and_prune::{Division, Kept};
 use super::contraction::{Contractor, Empty};
 use super::feasible_point::ParameterPoint;
 use super::linear_program::Outcome;
-use super::linear_relaxation::{Origin, Relaxation, midpoints};
+use super::linear_relaxation::{Origin, Relaxation, midpoints, points};
 use super::problem::Problem;
 use super::refinement::Points;
 use super::vector_field::FieldTerm;
@@ -38,15 +38,15 @@ pub(super) fn answer(wide: &Problem, contractor: &Contractor, division: &Divisio
         least =
             kept.iter().fold(least, |least, (_, relaxation)| least.min(least_misfit(contractor, relaxation.as_ref())));
     }
-    let ranges = kept.iter().flat_map(|(at, relaxation)| box_ranges(&contractor.problem, at, relaxation.as_ref()));
-    let point = |point: &ParameterPoint| ParameterValues {
-        values: values(&contractor.problem, &point.at),
-        misfit: point.misfit,
+    let ranges = kept.iter().flat_map(|(at, relaxation)| quantities(&contractor.problem, at, relaxation.as_ref()));
+    let point = |point: &ParameterPoint| {
+        let values = quantities(&contractor.problem, &points(&point.at), None).into_iter();
+        ParameterValues { values: values.map(|(own, side)| (own, side.midpoint())).collect(), misfit: point.misfit }
     };
     Bounds {
         verdict,
         search_box: wide.ranges(&wide.search),
-        bounds: QuantityRange::union(ranges),
+        bounds: QuantityRange::union(ranges.map(QuantityRange::of)),
         witness: tried.feasible().map(point),
         nearest: tried.nearest.as_ref().map(point),
         error: contractor.problem.records.iter().map(|readings| readings.error).collect(),
@@ -72,61 +72,35 @@ fn contradiction(problem: &Problem, empty: &Empty) -> Vec<Contradicting> {
             found.push(Contradicting { record, sample: *sample, model_above: *above, share });
         }
     }
-    let sum: f64 = found.iter().map(|part| part.share).sum();
-    found.iter_mut().for_each(|part| part.share /= sum);
-    found.sort_by_key(|part| (part.record, part.sample));
-    found
+    Contradicting::normalised(found)
 }
 
-/// The quantities of the answer at a point or over a box, given a reciprocal and a combination of unknowns over the gain.
-fn quantities<T: Copy>(
-    problem: &Problem,
-    at: &[T],
-    known_delay_s: T,
-    reciprocal: impl Fn(T) -> T,
-    over_gain: impl Fn(&[(usize, f64)]) -> T,
-) -> Vec<(Quantity, T)> {
+/// The quantities of the answer over a box.
+fn quantities(problem: &Problem, at: &[Interval], relaxation: Option<&Relaxation>) -> Vec<(Quantity, Interval)> {
     let unknowns = &problem.unknowns;
     let place = |term| unknowns.place_of(term);
-    let mut all = vec![(Quantity::Alpha, reciprocal(at[0]))];
+    let over_gain = |parts: &[(usize, f64)]| over_gain(at, relaxation, parts);
+    let mut all = vec![(Quantity::Alpha, Interval::ONE / at[0])];
     if let Some(linear) = place(FieldTerm::Linear) {
         let quadratic = place(FieldTerm::Quadratic).map(|quadratic| (quadratic, -2.0 * problem.middle_speed));
         let parts: Vec<(usize, f64)> = [(linear, 1.0)].into_iter().chain(quadratic).collect();
-        all.push((Quantity::Beta, over_gain(&parts)));
+        let beta = over_gain(&parts);
+        // Negative linear drag is searched only where it is admitted.
+        all.push((Quantity::Beta, if problem.least_linear >= 0.0 { beta.max(Interval::ZERO) } else { beta }));
     }
     let over_alpha = |(term, quantity)| Some((quantity, over_gain(&[(place(term)?, 1.0)])));
     all.extend(OVER_ALPHA.into_iter().filter_map(over_alpha));
-    all.extend(place(FieldTerm::LagRate).map(|rate| (Quantity::LagS, reciprocal(at[rate]))));
-    all.push((Quantity::DelayS, unknowns.delay().map_or(known_delay_s, |delay| at[delay])));
+    all.extend(place(FieldTerm::LagRate).map(|rate| (Quantity::LagS, Interval::ONE / at[rate])));
+    all.push((Quantity::DelayS, problem.delay_s(at)));
     let records = 0..unknowns.records();
-    all.extend(
-        records.clone().map(|record| (Quantity::Delta(record), over_gain(&[(unknowns.disturbance(record), 1.0)]))),
-    );
+    let delta = |record| (Quantity::Delta(record), over_gain(&[(unknowns.disturbance(record), 1.0)]));
+    all.extend(records.clone().map(delta));
     for record in records {
         let first = unknowns.first(record);
         all.push((Quantity::Position(record), at[unknowns.start(first, 0)]));
         all.push((Quantity::Velocity(record), at[unknowns.start(first, 1)]));
     }
     all
-}
-
-/// The quantities of a point.
-fn values(problem: &Problem, at: &[f64]) -> Vec<(Quantity, f64)> {
-    let over_gain =
-        |parts: &[(usize, f64)]| parts.iter().map(|(place, factor)| factor * at[*place]).sum::<f64>() / at[0];
-    quantities(problem, at, problem.known_delay_s.midpoint(), |value| 1.0 / value, over_gain)
-}
-
-/// The quantities over a remaining box.
-fn box_ranges(problem: &Problem, at: &[Interval], relaxation: Option<&Relaxation>) -> Vec<QuantityRange> {
-    let over_gain = |parts: &[(usize, f64)]| over_gain(at, relaxation, parts);
-    let mut all = quantities(problem, at, problem.known_delay_s, |side| Interval::ONE / side, over_gain);
-    if problem.least_linear >= 0.0 {
-        // Negative linear drag is not searched.
-        let beta = all.iter_mut().filter(|(quantity, _)| *quantity == Quantity::Beta);
-        beta.for_each(|(_, side)| *side = side.max(Interval::ZERO));
-    }
-    all.into_iter().map(QuantityRange::of).collect()
 }
 
 /// A combination c of parameters over the gain g: by both ranges; and as `m + (c - m g)/g` with the middle ratio m, where the inequalities

@@ -68,11 +68,10 @@ impl Block {
     /// `b_j` of velocity and force, given the derivative of the vector field by each term.
     #[inline]
     pub(super) fn forcing(&self, by_term: impl Fn(FieldTerm) -> Balls) -> [Balls; 2] {
-        let of = |force: bool| {
-            let terms = self.forcing.iter().filter(move |(term, _)| (*term == FieldTerm::LagRate) == force);
-            Balls::dot(terms.map(|(term, lanes)| (*lanes, by_term(*term))))
-        };
-        [of(false), of(true)]
+        [VELOCITY, FORCE].map(|component| {
+            let lanes = |term: FieldTerm| self.forcing.iter().find(|(own, _)| *own == term);
+            Balls::dot(FieldTerm::of(component).filter_map(lanes).map(|(term, lanes)| (*lanes, by_term(*term))))
+        })
     }
 
     /// The delay of a switching by each variable; `None` for not at all.

@@ -5,7 +5,7 @@
 //! distance of the two velocities.
 
 use super::sensitivities::{Block, Equation, units};
-use super::vector_field::{FieldTerm, Fields, StateBox, VELOCITY};
+use super::vector_field::{FORCE, FieldTerm, Fields, StateBox, VELOCITY};
 use crate::numeric::{Balls, Interval, Real, Sizes};
 
 /// Bounds of d at the end of a step of the length `h`, of velocity and force.
@@ -91,10 +91,8 @@ impl SensitivityError {
 impl Fields {
     /// Bounds of `sum (theta_j - c_j) b_j` of velocity and force, given the derivative by each term along the point's motion.
     fn forces_apart(&self, by_term: impl Fn(FieldTerm) -> Sizes) -> [Sizes; 2] {
-        [false, true].map(|force| {
-            let terms = FieldTerm::ALL
-                .into_iter()
-                .filter(|term| self.over.has(*term) && (*term == FieldTerm::LagRate) == force);
+        [VELOCITY, FORCE].map(|component| {
+            let terms = FieldTerm::of(component).filter(|term| self.over.has(*term));
             Sizes::dot(terms.map(|term| (Sizes::splat(self.over.term(term) - self.at.term(term)), by_term(term))))
         })
     }

@@ -5,9 +5,13 @@ use super::settings::{BoundedModel, DelayBound};
 use super::vector_field::FieldTerm;
 use crate::experiment::Record;
 use crate::identify::DragLaw;
-use crate::numeric::runge_kutta;
+use crate::numeric::{Interval, Real, runge_kutta};
 
-const SAMPLE_S: f64 = 0.1;
+pub(super) const SAMPLE_S: f64 = 0.1;
+/// Samples between two switchings.
+pub(super) const HALF_PERIOD: usize = 20;
+/// Step of the sensor.
+pub(super) const QUANTUM: f64 = 0.02;
 /// Steps of a sample's interval.
 const STEPS: usize = 20;
 
@@ -28,10 +32,53 @@ pub(super) struct VehicleTerms {
     pub(super) delayed: usize,
 }
 
+/// Linear drag alone.
+pub(super) const LINEAR: VehicleTerms = VehicleTerms {
+    gain: 0.8,
+    linear: 0.5,
+    quadratic: 0.0,
+    cubic: 0.0,
+    stiffness: 0.0,
+    lag_rate: 0.0,
+    disturbance: 0.08,
+    delayed: 0,
+};
+
+/// A motion, the problem that its record poses, and the true values of all unknowns.
+pub(super) struct Known {
+    pub(super) motion: Vec<Sample>,
+    pub(super) problem: Problem,
+    pub(super) truth: Vec<f64>,
+}
+
+impl Known {
+    pub(super) fn of(vehicle: &VehicleTerms, samples: usize, delay_known: bool) -> Self {
+        let motion = vehicle.motion(samples);
+        let problem = Problem::new(&[&record(&motion)], &vehicle.model(delay_known)).expect("a problem");
+        Self { truth: vehicle.truth(&problem, &motion), motion, problem }
+    }
+
+    /// Parameters in a box of this relative half-width, whose middle is `off` the truth by a share; states as the readings tell them.
+    pub(super) fn about(&self, off: f64, width: f64) -> Vec<Interval> {
+        let mut at = self.problem.search.clone();
+        for (side, value) in at.iter_mut().zip(&self.truth).take(self.problem.unknowns.parameters()) {
+            *side = Interval::point((1.0 + off) * value).inflate(width * value.abs());
+        }
+        at
+    }
+}
+
+/// Positions rounded to steps of the sensor.
+pub(super) fn record(motion: &[Sample]) -> Record {
+    let time_s = (0..motion.len()).map(|sample| SAMPLE_S * sample as f64).collect();
+    let output = motion.iter().map(|([x, ..], _)| (x / QUANTUM).round() * QUANTUM).collect();
+    Record::new(time_s, output, motion.iter().map(|(_, u)| *u).collect()).expect("a record")
+}
+
 impl VehicleTerms {
-    /// Position, velocity and force at every sample under a square wave; and the command.
+    /// At every sample under a square wave.
     pub(super) fn motion(&self, samples: usize) -> Vec<Sample> {
-        let command = |sample: usize| if (sample / 16).is_multiple_of(2) { 1.0 } else { -1.0 };
+        let command = |sample: usize| if (sample / HALF_PERIOD).is_multiple_of(2) { 1.0 } else { -1.0 };
         let h = SAMPLE_S / STEPS as f64;
         let lagged = self.lag_rate > 0.0;
         let (mut state, mut all) = ([0.0, -0.4, -0.7], Vec::new());
@@ -50,15 +97,8 @@ impl VehicleTerms {
         all
     }
 
-    /// Positions rounded to steps.
-    pub(super) fn record(motion: &[Sample], quantum: f64) -> Record {
-        let time_s = (0..motion.len()).map(|sample| SAMPLE_S * sample as f64).collect();
-        let output = motion.iter().map(|([x, ..], _)| (x / quantum).round() * quantum).collect();
-        Record::new(time_s, output, motion.iter().map(|(_, u)| *u).collect()).expect("a record")
-    }
-
     /// The terms that it has.
-    pub(super) fn model(&self, delay_known: bool, quantum: f64) -> BoundedModel {
+    pub(super) fn model(&self, delay_known: bool) -> BoundedModel {
         let law = match (self.linear != 0.0, self.quadratic != 0.0) {
             (true, true) => DragLaw::Mixed,
             (false, true) => DragLaw::Quadratic,
@@ -69,7 +109,7 @@ impl VehicleTerms {
             cubic: self.cubic != 0.0,
             stiffness: self.stiffness != 0.0,
             lag: self.lag_rate > 0.0,
-            quantum: Some(quantum),
+            quantum: Some(QUANTUM),
             ..BoundedModel::new(law, delay)
         }
     }
@@ -79,7 +119,7 @@ impl VehicleTerms {
     }
 
     /// All unknowns of the search.
-    pub(super) fn truth(&self, problem: &Problem, motion: &[Sample]) -> Vec<f64> {
+    fn truth(&self, problem: &Problem, motion: &[Sample]) -> Vec<f64> {
         let unknowns = &problem.unknowns;
         let mut truth = vec![0.0; problem.search.len()];
         for (place, term) in unknowns.terms.iter().enumerate() {
@@ -98,10 +138,8 @@ impl VehicleTerms {
         }
         truth[unknowns.disturbance(0)] = self.disturbance;
         for (index, interval) in unknowns.shooting.iter().enumerate() {
-            let at_s = problem.records[0].time_s[interval.first];
-            let sample = (at_s / SAMPLE_S).round() as usize;
             for component in 0..unknowns.state_size() {
-                truth[unknowns.start(index, component)] = motion[sample].0[component];
+                truth[unknowns.start(index, component)] = motion[interval.first].0[component];
             }
         }
         truth

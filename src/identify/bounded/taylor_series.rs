@@ -78,65 +78,57 @@ impl PointSeries {
         backwards: bool,
         h: Interval,
     ) -> Self {
-        let equation = Equation::of(field);
         let (u, twice_middle) = (Balls::splat(u), Balls::splat(field.twice_middle()));
-        let (quadratic, cubic, lagged) =
-            (equation.has(FieldTerm::Quadratic), equation.has(FieldTerm::Cubic), equation.has(FieldTerm::LagRate));
-        let initial = |k: usize| Balls::new([middle[k], start[k], within[k], within[k]]);
-        let (mut x, mut v, mut f) = (ZEROS, ZEROS, ZEROS);
-        (x[0], v[0], f[0]) = (initial(POSITION), initial(VELOCITY), initial(FORCE));
-        let (mut shifted, mut drag, mut square, mut cube, mut lag_input) = (ZEROS, ZEROS, ZEROS, ZEROS, ZEROS);
-        let mut damping = ZEROS;
+        let mut own = Self {
+            equation: Equation::of(field),
+            state: core::array::from_fn(|component| {
+                let [middle, start, within] = [middle, start, within].map(|state| state[component]);
+                let mut series = ZEROS;
+                series[0] = Balls::new([middle, start, within, within]);
+                series
+            }),
+            drag: ZEROS,
+            cube: ZEROS,
+            lag_input: ZEROS,
+            damping: ZEROS,
+            damping_bound: [Sizes::ZERO; DEGREE + 1],
+            damping_range: field.damping(within[VELOCITY], within[VELOCITY]),
+            h,
+        };
+        let [linear, quadratic, cubic] =
+            [FieldTerm::Linear, FieldTerm::Quadratic, FieldTerm::Cubic].map(|term| own.equation.term(term));
+        let (mut shifted, mut square) = (ZEROS, ZEROS);
         for k in 0..=DEGREE {
             let constant = |value: Balls| if k == 0 { value } else { Balls::ZERO };
-            damping[k] = -constant(equation.term(FieldTerm::Linear));
-            if quadratic {
+            let v = &own.state[VELOCITY];
+            let mut damping = -constant(linear);
+            if field.has(FieldTerm::Quadratic) {
                 let speed = if backwards { -v[k] } else { v[k] };
                 shifted[k] = speed - constant(twice_middle);
-                drag[k] = product(&shifted, &v, k);
+                own.drag[k] = product(&shifted, v, k);
                 // d/dv (|v| - 2 m) v = 2 |v| - 2 m.
-                damping[k] = damping[k] - equation.term(FieldTerm::Quadratic) * (speed + shifted[k]);
+                damping = damping - quadratic * (speed + shifted[k]);
             }
-            if cubic {
-                square[k] = product(&v, &v, k);
-                cube[k] = product(&square, &v, k);
-                damping[k] = damping[k] - equation.term(FieldTerm::Cubic) * (square[k] + square[k] + square[k]);
+            if field.has(FieldTerm::Cubic) {
+                square[k] = product(v, v, k);
+                own.cube[k] = product(&square, v, k);
+                damping = damping - cubic * (square[k] + square[k] + square[k]);
             }
-            if lagged {
-                lag_input[k] = constant(u) - f[k];
-            }
+            (own.damping[k], own.damping_bound[k]) = (damping.spread(START), damping.sizes().spread(WITHIN));
+            own.lag_input[k] = constant(u) - own.state[FORCE][k];
             if k == DEGREE {
                 break;
             }
             // (k + 1) y_(k + 1) is the k-th coefficient of the vector field along y.
-            let mut rate = equation.term(FieldTerm::Gain) * f[k] - equation.term(FieldTerm::Linear) * v[k]
-                + constant(equation.term(FieldTerm::Disturbance));
-            if quadratic {
-                rate = rate - equation.term(FieldTerm::Quadratic) * drag[k];
-            }
-            if cubic {
-                rate = rate - equation.term(FieldTerm::Cubic) * cube[k];
-            }
-            if equation.has(FieldTerm::Stiffness) {
-                rate = rate - equation.term(FieldTerm::Stiffness) * x[k];
-            }
-            v[k + 1] = rate.share(k + 1);
-            x[k + 1] = v[k].share(k + 1);
-            if lagged {
-                f[k + 1] = (equation.term(FieldTerm::LagRate) * lag_input[k]).share(k + 1);
+            own.state[POSITION][k + 1] = v[k].share(k + 1);
+            let moved = if field.has(FieldTerm::LagRate) { &[VELOCITY, FORCE][..] } else { &[VELOCITY] };
+            for &component in moved {
+                let terms = FieldTerm::of(component).filter(|term| field.has(*term));
+                let rate = Balls::dot(terms.map(|term| (own.equation.term(term), own.by_term(term, k))));
+                own.state[component][k + 1] = rate.share(k + 1);
             }
         }
-        Self {
-            equation,
-            state: [x, v, f],
-            drag,
-            cube,
-            lag_input,
-            damping: damping.map(|own| own.spread(START)),
-            damping_bound: damping.map(|own| own.sizes().spread(WITHIN)),
-            damping_range: field.damping(within[VELOCITY], within[VELOCITY]),
-            h,
-        }
+        own
     }
 
     /// The motion from the middle of the start, with its remainder.

@@ -68,6 +68,11 @@ impl Unknowns {
         self.parameters() + interval * self.state_size() + component
     }
 
+    /// The components of that state that are refined by the intervals beside: no position, which the reading tells.
+    pub(super) fn refined(&self, interval: usize) -> Vec<usize> {
+        (1..self.state_size()).map(|component| self.start(interval, component)).collect()
+    }
+
     /// The first shooting interval of a record.
     pub(super) fn first(&self, record: usize) -> usize {
         self.shooting.iter().position(|own| own.record == record).unwrap_or(0)

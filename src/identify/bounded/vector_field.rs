@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::answer::Quantity;
 use crate::numeric::{Interval, Real};
 
 /// Terms of the acceleration, one parameter each. The equation is linear in every parameter but the rate of the lag.
@@ -31,16 +32,21 @@ impl FieldTerm {
     pub(super) const ALL: [Self; TERMS] =
         [Self::Gain, Self::Disturbance, Self::Linear, Self::Quadratic, Self::Cubic, Self::Stiffness, Self::LagRate];
 
-    /// The coefficient in words.
-    pub(super) fn name(self) -> &'static str {
+    /// The terms in the rate of a component of the state: of the force, or of the velocity.
+    pub(super) fn of(component: usize) -> impl Iterator<Item = Self> + Clone {
+        Self::ALL.into_iter().filter(move |term| (*term == Self::LagRate) == (component == FORCE))
+    }
+
+    /// The coefficient; of the linear term without the share of the quadratic one, of the disturbance in the first record.
+    pub(super) fn quantity(self) -> Quantity {
         match self {
-            Self::Gain => "1/alpha",
-            Self::Disturbance => "delta/alpha",
-            Self::Linear => "beta/alpha, at the middle speed",
-            Self::Quadratic => "beta_quadratic/alpha",
-            Self::Cubic => "beta_cubic/alpha",
-            Self::Stiffness => "stiffness/alpha",
-            Self::LagRate => "1/lag_s",
+            Self::Gain => Quantity::Gain,
+            Self::Disturbance => Quantity::DeltaRate(0),
+            Self::Linear => Quantity::LinearRate,
+            Self::Quadratic => Quantity::QuadraticRate,
+            Self::Cubic => Quantity::CubicRate,
+            Self::Stiffness => Quantity::StiffnessRate,
+            Self::LagRate => Quantity::LagRate,
         }
     }
 }
@@ -137,27 +143,13 @@ impl VectorField {
         core::array::from_fn(|component| self.rate_of(component, state, u))
     }
 
-    /// The time derivative of one component.
-    pub(super) fn rate_of(&self, component: usize, [x, v, f]: &StateBox, u: Interval) -> Interval {
-        match component {
-            POSITION => *v,
-            VELOCITY => {
-                let mut acceleration = self.term(FieldTerm::Gain) * *f + self.term(FieldTerm::Disturbance)
-                    - self.term(FieldTerm::Linear) * *v;
-                if self.has(FieldTerm::Quadratic) {
-                    acceleration -= self.term(FieldTerm::Quadratic) * shifted_square(*v, self.middle_speed);
-                }
-                if self.has(FieldTerm::Cubic) {
-                    acceleration -= self.term(FieldTerm::Cubic) * cube(*v);
-                }
-                if self.has(FieldTerm::Stiffness) {
-                    acceleration -= self.term(FieldTerm::Stiffness) * *x;
-                }
-                acceleration
-            }
-            _ if self.has(FieldTerm::LagRate) => self.term(FieldTerm::LagRate) * (u - *f),
-            _ => Interval::ZERO,
+    /// The time derivative of one component: position, or the sum of its terms.
+    pub(super) fn rate_of(&self, component: usize, state: &StateBox, u: Interval) -> Interval {
+        if component == POSITION {
+            return state[VELOCITY];
         }
+        let terms = FieldTerm::of(component).filter(|term| self.has(*term));
+        Interval::dot(terms.map(|term| (self.term(term), self.by_term(term, state, u))))
     }
 
     /// `(a(v) - a(w))/(v - w)`, the slope of the acceleration between two velocities at the same position and force.

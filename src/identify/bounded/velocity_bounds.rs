@@ -5,17 +5,13 @@ mod monotone;
 #[cfg(test)]
 mod tests;
 
+use super::a_priori_enclosure;
 use super::answer::Contradicting;
 use super::linear_relaxation::half_line;
 use super::problem::Problem;
-use super::vector_field::{FieldTerm, cube, shifted_square, signed_square};
+use super::vector_field::{FieldTerm, StateBox, VELOCITY, cube, shifted_square, signed_square};
 use crate::numeric::{Interval, Real};
 use monotone::{Constant, SPANS};
-
-/// Trial decreases of a velocity, each twice the one before.
-const DOUBLINGS: usize = 6;
-/// Refinements of a decrease.
-const ITERATIONS: usize = 3;
 
 /// The acceleration without drag between two samples.
 #[derive(Clone, Copy, Debug)]
@@ -73,56 +69,24 @@ fn lagged(force: Interval, command: Interval, lags: Interval) -> Interval {
     Interval::new(lower.lower(), upper.upper()).unwrap_or(force.hull(command))
 }
 
-/// Coefficients of linear, quadratic and cubic drag over a box.
-struct Drag([Interval; 3]);
-
-impl Drag {
-    /// The least acceleration at any of the velocities.
-    fn rate(&self, v: Interval, force: Interval) -> f64 {
-        let [linear, quadratic, cubic] = self.0;
-        (force - linear * v - quadratic * signed_square(v) - cubic * v * v.square()).lower()
-    }
-
-    /// The velocities during a time of at most `lasted` from any of some. Drag is odd: the largest is the least of the motion turned round.
-    fn passed(&self, v: Interval, force: Interval, lasted: Interval) -> Interval {
-        let (least, largest) = (self.least(v.lower(), force, lasted), -self.least(-v.upper(), -force, lasted));
-        Interval::new(least, largest).unwrap_or(Interval::ENTIRE)
-    }
-
-    /// A lower bound of the velocity during a time of at most `lasted` from `v`.
-    fn least(&self, v: f64, force: Interval, lasted: Interval) -> f64 {
-        if !v.is_finite() {
-            return f64::NEG_INFINITY;
-        }
-        if self.rate(Interval::point(v), force) >= 0.0 {
-            return v;
-        }
-        // The least velocity after the whole time while it is between v and `end`.
-        let after = |end: f64| {
-            let rate = self.rate(Interval::point(v).hull(Interval::point(end)), force);
-            (Interval::point(v) + Interval::point(rate) * Interval::point(lasted.upper())).lower()
-        };
-        // f is not passed: the fall on the way there takes longer, or at f the velocity rises.
-        let holds = |f: f64| after(f) >= f || self.rate(Interval::point(f), force) >= 0.0;
-        let furthest = after(v) - v;
-        let Some(mut sure) = (0..DOUBLINGS).map(|k| v + f64::from(1 << k) * furthest).find(|f| holds(*f)) else {
-            return f64::NEG_INFINITY;
-        };
-        // The fall is no faster than between v and a velocity that is not passed.
-        for _ in 0..ITERATIONS {
-            sure = sure.max(after(sure).min(v));
-        }
-        sure
-    }
+/// Velocities during a time from any of some, under drag and a force.
+fn passed([linear, quadratic, cubic]: [Interval; 3], from: Interval, force: Interval, lasted: Interval) -> Interval {
+    let rate = |component: usize, state: &StateBox| {
+        let v = state[VELOCITY];
+        let drag = linear * v + quadratic * signed_square(v) + cubic * cube(v);
+        if component == VELOCITY { force - drag } else { Interval::ZERO }
+    };
+    let states = a_priori_enclosure::enclose(&[Interval::ZERO, from, Interval::ZERO], lasted, rate);
+    states.map_or(Interval::ENTIRE, |states| states[VELOCITY])
 }
 
 impl Problem {
-    /// Drag over a box.
-    fn drag(&self, at: &[Interval]) -> Drag {
+    /// Coefficients of linear, quadratic and cubic drag over a box.
+    fn drag(&self, at: &[Interval]) -> [Interval; 3] {
         let linear =
             if self.unknowns.place_of(FieldTerm::Linear).is_some() { self.linear_drag(at) } else { Interval::ZERO };
         let linear = linear.intersection(half_line(self.least_linear, false)).unwrap_or(linear);
-        Drag([linear, self.term(FieldTerm::Quadratic, at), self.term(FieldTerm::Cubic, at)])
+        [linear, self.term(FieldTerm::Quadratic, at), self.term(FieldTerm::Cubic, at)]
     }
 
     /// The first sample after which every command that acts is in the log, wherever the reading was taken within the jitter.
@@ -139,7 +103,7 @@ impl Problem {
         let disturbance = at[self.unknowns.disturbance(record)];
         let speed = Interval::symmetric(self.fastest);
         // Negative linear drag drives.
-        let Drag([linear, ..]) = self.drag(at);
+        let [linear, ..] = self.drag(at);
         let driving = Interval::symmetric((-linear.lower()).max(0.0)) * speed;
         let delay_s = self.delay_s(at);
         let command = &readings.command;
@@ -305,7 +269,7 @@ impl Problem {
         let mut between_samples = vec![Interval::symmetric(self.fastest); known];
         for sample in known + 1..value.len() {
             let lasted = readings.lasted(sample - 1, sample);
-            let passed = drag.passed(speeds[sample - 1], pushes[sample - 1].force, lasted);
+            let passed = passed(drag, speeds[sample - 1], pushes[sample - 1].force, lasted);
             speeds[sample] = speeds[sample].intersection(passed)?;
             between_samples.push(passed);
         }

@@ -1,7 +1,9 @@
 //! The check of a certificate: its problem, its words, its stages and its witness. No search, no linear programme.
 
+use super::super::answer::Quantity;
 use super::super::linear_relaxation::points;
 use super::super::problem::{Problem, ROUNDING};
+use super::super::vector_field::FieldTerm;
 use super::format::{Certificate, ProofStage, Witness};
 use super::unproved::{Unproved, malformed};
 use super::walk::{Checked, Walk, within};
@@ -16,9 +18,9 @@ pub struct Shown {
     /// Its assumptions, in words.
     pub ranges: Vec<String>,
     /// Where parameters were searched: the terms and the delay.
-    pub searched: Vec<(&'static str, [f64; 2])>,
+    pub searched: Vec<(String, [f64; 2])>,
     /// The remainder of them; nothing where refuted.
-    pub left: Vec<(&'static str, [f64; 2])>,
+    pub left: Vec<(String, [f64; 2])>,
     /// Speeds were searched up to this, in units of the readings per s.
     pub fastest: f64,
     /// Boxes excluded.
@@ -69,12 +71,16 @@ impl Certificate {
     }
 
     /// Ranges of terms, of the delay and of each record's disturbance, by name.
-    fn named(&self, problem: &Problem, ranges: &[[f64; 2]]) -> Vec<(&'static str, [f64; 2])> {
-        let (terms, unknowns) = (&self.searched.terms, &problem.unknowns);
+    fn named(&self, problem: &Problem, ranges: &[[f64; 2]]) -> Vec<(String, [f64; 2])> {
+        let unknowns = &problem.unknowns;
         let delay = unknowns.delay().map_or([problem.known_delay_s.midpoint(); 2], |place| ranges[place]);
-        let of_terms = terms.iter().map(|term| term.name()).zip(ranges.iter().copied());
-        let disturbances = (0..self.records.len()).map(|record| ranges[unknowns.disturbance(record)]);
-        of_terms.chain([("delay_s", delay)]).chain(disturbances.map(|range| ("delta/alpha", range))).collect()
+        let of_terms = self.searched.terms.iter().zip(ranges).map(|(term, range)| {
+            let at = if *term == FieldTerm::Linear { ", at the middle speed" } else { "" };
+            (format!("{}{at}", term.quantity()), *range)
+        });
+        let disturbance = |record| (Quantity::DeltaRate(record).to_string(), ranges[unknowns.disturbance(record)]);
+        let disturbances = (0..self.records.len()).map(disturbance);
+        of_terms.chain([(Quantity::DelayS.to_string(), delay)]).chain(disturbances).collect()
     }
 }
 
@@ -111,7 +117,6 @@ fn check_witness(problem: &Problem, witness: &Witness) -> Result<(), Unproved> {
     if rows.into_iter().any(|(row, limit)| *limit < -ROUNDING * size(row)) {
         return Err(outside());
     }
-    let misfits = own.single_shooting().map(|span| own.misfit(span, at).unwrap_or(f64::INFINITY));
-    let misfit = misfits.fold(0.0, f64::max);
+    let misfit = own.misfit(at).unwrap_or(f64::INFINITY);
     if misfit <= 1.0 { Ok(()) } else { Err(Unproved::Witness { misfit }) }
 }

@@ -202,18 +202,13 @@ impl CertificateProver {
             Ok(Some(relaxation)) => relaxation,
         };
         let (before, (uncertainty, widest)) = (here.at.clone(), contractor.uncertainty(&relaxation));
-        let states = problem.followed().map(|(interval, _)| {
-            let own: Vec<usize> =
-                (1..unknowns.state_size()).map(|component| unknowns.start(interval, component)).collect();
-            (Some(interval), own)
-        });
+        let states = problem.followed().map(|(interval, _)| (Some(interval), unknowns.refined(interval)));
         let parameters = (None, (0..unknowns.parameters()).collect());
         let margin = ExclusionMargin { slack: self.slack, of_uncertainty: OF_UNCERTAINTY };
         let (mut at, mut all) = (here.at.clone(), Vec::new());
         'groups: for (interval, own) in states.chain([parameters]) {
             let beside = interval.map_or_else(|| relaxation.clone(), |interval| relaxation.beside(interval));
-            let known: Vec<Interval> =
-                beside.deviations.iter().zip(&beside.centre).map(|(z, centre)| *z + Interval::point(*centre)).collect();
+            let known = beside.sides();
             let found = seek(problem, &beside, &known, &own, self.target(), margin);
             if let (Contraction::Contradiction(rows, _), true) = (&found, all.is_empty()) {
                 self.steps.push(Step::Exclude { by, rows: rows.clone() });

@@ -1,16 +1,15 @@
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::super::simulated::VehicleTerms;
+use super::super::simulated::{Known, VehicleTerms};
 use super::*;
 
-const QUANTUM: f64 = 0.01;
 /// Error of the integration of the truth.
 const OFF: f64 = 1e-7;
 const BOXES: usize = 30;
 
 /// Boxes that contain the truth, from wide to narrow.
-fn about(truth: &[f64], problem: &Problem, random: &mut Pcg64Mcg) -> Vec<Interval> {
+fn about(Known { problem, truth, .. }: &Known, random: &mut Pcg64Mcg) -> Vec<Interval> {
     let width = 10f64.powf(random.random_range(-4.0..0.0));
     let mut at = problem.search.clone();
     for (side, value) in at.iter_mut().zip(truth).take(problem.unknowns.parameters()) {
@@ -24,19 +23,16 @@ fn about(truth: &[f64], problem: &Problem, random: &mut Pcg64Mcg) -> Vec<Interva
 
 /// The number of boxes about the truth that are followed; contraction leaves the truth in each.
 fn followed(vehicle: &VehicleTerms, delay_known: bool, seed: u64) -> usize {
-    let motion = vehicle.motion(110);
-    let model = vehicle.model(delay_known, QUANTUM);
-    let problem = Problem::new(&[&VehicleTerms::record(&motion, QUANTUM)], &model).expect("a problem");
-    let truth = vehicle.truth(&problem, &motion);
+    let known = Known::of(vehicle, 110, delay_known);
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let mut followed = 0;
     for number in 0..BOXES {
-        let mut at = about(&truth, &problem, &mut random);
-        let mut contractor = Contractor::new(problem.clone());
+        let mut at = about(&known, &mut random);
+        let mut contractor = Contractor::new(known.problem.clone());
         let left = contractor.contract(&mut at, true);
         let left = left.unwrap_or_else(|empty| panic!("box {number} by {:?}", empty.method));
         followed += usize::from(matches!(left, Contracted::Followed { .. }));
-        for (place, (side, value)) in at.iter().zip(&truth).enumerate() {
+        for (place, (side, value)) in at.iter().zip(&known.truth).enumerate() {
             let near = *side + Interval::symmetric(OFF);
             assert!(near.contains(*value), "box {number}: {place} is {value}, outside of {side:?}");
         }

@@ -1,15 +1,14 @@
 use super::super::problem::Problem;
+use super::super::settings::DelayBound;
+use super::super::simulated::{Known, LINEAR, VehicleTerms, record};
 use super::super::solve::solve;
-use super::super::tests::{ALPHA, off, oscillation, record, settings};
-use super::super::{BoundedModel, Consistency, DelayBound, Quantity, enclose};
+use super::super::{BoundedModel, Consistency, Quantity, enclose};
 use super::*;
 use crate::identify::DragLaw;
-use crate::plant::DragAxis;
 
 #[test]
 fn feasible_points_are_found_towards_both_ends_of_the_bounds() {
-    let record = oscillation(DragAxis::mixed(1.2, 0.5, 0.4).expect("an axis"), 10.0, 25.0);
-    let problem = Problem::new(&[&record], &settings(DragLaw::Mixed)).expect("a problem");
+    let problem = Known::of(&VehicleTerms { quadratic: 0.3, ..LINEAR }, 250, true).problem;
     let mut contractor = Contractor::new(problem.clone());
     let hull = contractor.prune(problem.search, 2000).hull().expect("not empty: the truth is inside");
     let nearest = contractor.nearest(&hull, &hull).filter(ParameterPoint::is_feasible).expect("a feasible point");
@@ -23,25 +22,26 @@ fn feasible_points_are_found_towards_both_ends_of_the_bounds() {
 
 #[test]
 fn a_point_is_found_about_the_fit_where_division_has_hardly_begun_and_none_where_there_is_none() {
-    let record = record(300);
-    let brief = BoundedModel { budget: 1, delay: DelayBound::Unknown, ..settings(DragLaw::Mixed) };
+    let record = record(&LINEAR.motion(300));
+    let of = |law, delay| BoundedModel { budget: 1, law, delay, ..LINEAR.model(true) };
+    let brief = of(DragLaw::Mixed, DelayBound::Unknown);
     let found = enclose(&[&record], &brief).expect("bounds");
     assert_eq!(found.verdict, Consistency::Consistent);
-    let [low, high] = found.of(Quantity::Alpha).expect("a range");
-    assert!(low <= ALPHA && ALPHA <= high && high > 2.0 * low, "[{low}, {high}] after one pass");
+    let ([low, high], alpha) = (found.of(Quantity::Alpha).expect("a range"), 1.0 / LINEAR.gain);
+    assert!(low <= alpha && alpha <= high && high > 2.0 * low, "[{low}, {high}] after one pass");
     let problem = Problem::new(&[&record], &brief).expect("a problem");
     let without = solve(&problem, &brief, || None).expect("bounds");
     assert_eq!(without.bounds.verdict, Consistency::Undecided, "without estimates");
-    let late = BoundedModel { delay: DelayBound::KnownS(0.15), budget: 1, ..settings(DragLaw::Linear) };
+    let late = of(DragLaw::Linear, DelayBound::KnownS(0.15));
     assert_ne!(enclose(&[&record], &late).expect("bounds").verdict, Consistency::Consistent);
 }
 
 #[test]
 fn a_point_is_found_outside_of_the_box_from_which_the_descent_begins() {
-    let problem = Problem::new(&[&record(300)], &settings(DragLaw::Linear)).expect("a problem");
-    let contractor = Contractor::new(problem.clone());
-    let from = off(&problem, 0.01, 0.002);
+    let known = Known::of(&LINEAR, 300, true);
+    let contractor = Contractor::new(known.problem.clone());
+    let from = known.about(0.01, 0.002);
     let inside = contractor.nearest(&from, &from).expect("a parameter");
-    let outside = contractor.nearest(&from, &problem.search).expect("a parameter");
+    let outside = contractor.nearest(&from, &known.problem.search).expect("a parameter");
     assert!(!inside.is_feasible() && outside.is_feasible(), "{} and {}", inside.misfit, outside.misfit);
 }

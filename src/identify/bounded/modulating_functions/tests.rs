@@ -42,7 +42,7 @@ fn known() -> (Readings, Velocities) {
 }
 
 /// `int K f` over a hat with its ends and its peak at these instants.
-fn integral([l, m, r]: [f64; 3], f: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn integral([l, m, r]: [f64; 3], f: impl Fn(f64) -> f64) -> f64 {
     let half = |from: f64, to: f64, height: &dyn Fn(f64) -> f64| {
         let pieces = ((to - from) / STEP_S).round() as usize * PIECES;
         let step = (to - from) / pieces as f64;

@@ -6,9 +6,6 @@
 
 use crate::numeric::{Interval, Real};
 
-#[cfg(test)]
-mod tests;
-
 /// A share of the lag's memory below this counts as gone.
 const GONE: f64 = 1e-14;
 
@@ -17,10 +14,6 @@ pub(super) struct Hat {
     pub(super) l: Interval,
     m: Interval,
     pub(super) r: Interval,
-}
-
-fn intersect(a: Interval, b: Interval) -> Interval {
-    a.intersection(b).unwrap_or(b)
 }
 
 impl Hat {
@@ -70,11 +63,6 @@ impl Hat {
         }
     }
 
-    /// The largest slope.
-    fn steepness(&self) -> Interval {
-        (Interval::ONE / self.left()).max(Interval::ONE / self.right())
-    }
-
     /// `sum_p w_p g(r(p - instant))`.
     fn corners(&self, instant: Interval, g: impl Fn(Interval) -> Interval) -> Interval {
         let (left, right) = (Interval::ONE / self.left(), Interval::ONE / self.right());
@@ -100,40 +88,6 @@ impl Hat {
         let mean = self.corners(Interval::point(instant), |x| {
             half * x.square() - x * lag_s - lag_s.square() * (-x / lag_s).exp_m1()
         });
-        intersect(mean, likely)
-    }
-
-    /// The derivative of [`Self::lagged_area`] by the instant, negated, over ranges of instants and lags.
-    pub(super) fn lagged_height(&self, instants: Interval, lag_s: Interval) -> Interval {
-        let most = self.memory(instants.upper(), lag_s).hull(Interval::ZERO);
-        if most.upper() < GONE {
-            return most;
-        }
-        let (instant, lag, [by_instant, by_lag]) = Self::middles(instants, lag_s);
-        let mean = self.corners(instant, |x| x + lag * (-x / lag).exp_m1());
-        intersect(mean + Interval::symmetric((self.steepness() * (by_instant + by_lag)).upper()), most)
-    }
-
-    /// The derivative of [`Self::lagged_area`] by T, negated, over ranges of instants and lags.
-    pub(super) fn lagged_lever(&self, instants: Interval, lag_s: Interval) -> Interval {
-        let memory = self.memory(instants.upper(), lag_s);
-        let ahead = (self.l - Interval::point(instants.upper())).max(Interval::ZERO) / lag_s;
-        let most = ((Interval::ONE + ahead) * memory).hull(Interval::ZERO);
-        if memory.upper() < GONE {
-            return most;
-        }
-        let (instant, lag, [by_instant, by_lag]) = Self::middles(instants, lag_s);
-        let mean = self.corners(instant, |x| {
-            let gone = (-x / lag).exp_m1();
-            x * (Interval::two() + gone) + Interval::two() * lag * gone
-        });
-        let room = self.steepness() * (by_instant + Interval::two() * by_lag);
-        intersect(mean + Interval::symmetric(room.upper()), most)
-    }
-
-    /// A middle instant and lag, and the largest distances from these.
-    fn middles(instants: Interval, lag_s: Interval) -> (Interval, Interval, [Interval; 2]) {
-        let [instant, lag] = [instants, lag_s].map(|range| Interval::point(range.midpoint()));
-        (instant, lag, [(instants - instant).abs(), (lag_s - lag).abs()])
+        mean.intersection(likely).unwrap_or(likely)
     }
 }

@@ -10,9 +10,6 @@ use super::super::record::Readings;
 use super::super::vector_field::FieldTerm;
 use crate::numeric::Interval;
 
-#[cfg(test)]
-mod tests;
-
 /// Spans of the mean velocities, in samples: Fibonacci numbers, so that every length has one near.
 pub(super) const SPANS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 
@@ -105,10 +102,7 @@ impl Readings {
                 }
             }
         }
-        let sum: f64 = readings.iter().map(|part| part.share).sum();
-        readings.iter_mut().for_each(|part| part.share /= sum);
-        readings.sort_by_key(|part| (part.record, part.sample));
-        readings
+        Contradicting::normalised(readings)
     }
 }
 

@@ -1,73 +1,98 @@
+//! Velocities of a motion that is known, each way of enclosing them with a false variant that is caught.
+
+use super::super::simulated::{HALF_PERIOD, Known, LINEAR, QUANTUM, VehicleTerms, record};
 use super::*;
-use crate::numeric::runge_kutta;
+use crate::experiment::Record;
+use crate::identify::bounded::BoundedModel;
 
-const FORCES: [f64; 5] = [-2.0, -0.3, 0.0, 0.4, 2.0];
-const VELOCITIES: [f64; 7] = [-1.5, -0.4, -0.01, 0.0, 0.02, 0.5, 1.5];
-/// Linear, quadratic, cubic: with damping alone, mixed, and with linear drag that drives.
-const DRAGS: [[f64; 3]; 4] = [[0.8, 0.0, 0.0], [0.0, 1.1, 0.0], [0.3, 0.4, 0.2], [-0.5, 0.9, 0.0]];
-const LASTED_S: f64 = 0.1;
-const STEPS: usize = 400;
-/// What the classical method leaves in so many steps.
-const MISSED: f64 = 1e-10;
+const SAMPLES: usize = 150;
 
-fn rate([linear, quadratic, cubic]: [f64; 3], force: f64, v: f64) -> f64 {
-    force - linear * v - quadratic * v * v.abs() - cubic * v * v * v
-}
-
-/// The velocity at every step, by the classical method of Runge and Kutta.
-fn motion(drag: [f64; 3], force: f64, from: f64) -> Vec<f64> {
-    let h = LASTED_S / STEPS as f64;
-    let mut passed = vec![from];
-    for _ in 0..STEPS {
-        let v = passed[passed.len() - 1];
-        let [next] = runge_kutta([v], h, |[v]| [rate(drag, force, v)]);
-        passed.push(next);
-    }
-    passed
-}
-
-fn cases() -> impl Iterator<Item = ([f64; 3], f64, f64)> {
-    let each = DRAGS.iter().flat_map(|drag| FORCES.iter().map(move |force| (*drag, *force)));
-    each.flat_map(|(drag, force)| VELOCITIES.iter().map(move |v| (drag, force, *v)))
-}
-
-fn end(passed: &[f64]) -> f64 {
-    passed[passed.len() - 1]
+fn speeds(known: &Known) -> Vec<f64> {
+    known.motion.iter().map(|([_, v, _], _)| *v).collect()
 }
 
 #[test]
-fn the_least_velocity_is_enclosed_and_by_the_first_rate_alone_it_is_not() {
-    let lasted = Interval::point(LASTED_S);
-    let mut by_the_first_rate = 0;
-    for (drag, force, v) in cases() {
-        let passed = motion(drag, force, v);
-        let least = Drag(drag.map(Interval::point)).least(v, Interval::point(force), lasted);
-        let lowest = passed.iter().copied().fold(v, f64::min);
-        assert!(least <= lowest + MISSED, "{drag:?} {force} {v}: {least} is above {lowest}");
-        // Hardly less than it is: rates change by a tenth of themselves.
-        let changed = (lowest - v).abs();
-        assert!(lowest - least <= 0.2 * changed + MISSED, "{drag:?} {force} {v}: {least} for {lowest}");
-        by_the_first_rate += usize::from(v + LASTED_S * rate(drag, force, v) > end(&passed) + MISSED);
+fn between_switchings_velocities_go_one_way_and_across_them_they_do_not() {
+    let known = Known::of(&LINEAR, SAMPLES, true);
+    let (readings, truth) = (&known.problem.records[0], speeds(&known));
+    let mut missed = 0;
+    for first in (HALF_PERIOD..SAMPLES - 2 * HALF_PERIOD).step_by(HALF_PERIOD) {
+        let mut speeds = vec![Interval::ENTIRE; SAMPLES];
+        readings.monotone(Constant { first, last: first + HALF_PERIOD }, &mut speeds).expect("one way");
+        assert!((first..=first + HALF_PERIOD).all(|k| speeds[k].contains(truth[k])), "{first}");
+        // In the middle the readings tell it, to the roundings of two over the time between.
+        let middle = first + HALF_PERIOD / 2;
+        assert!(speeds[middle].width() < 0.5, "{first}: {}", speeds[middle]);
+
+        let across = Constant { first: middle, last: middle + HALF_PERIOD };
+        let mut speeds = vec![Interval::ENTIRE; SAMPLES];
+        let met = readings.monotone(across, &mut speeds);
+        missed += usize::from(met.is_none() || (across.first..=across.last).any(|k| !speeds[k].contains(truth[k])));
     }
-    assert!(by_the_first_rate > 10, "the first rate alone is wrong {by_the_first_rate} times");
+    assert!(missed > 3, "{missed} times across");
 }
 
 #[test]
-fn over_a_box_of_drags_and_forces_it_is_below_every_corner_and_the_middle_s_is_not() {
-    let lasted = Interval::point(LASTED_S).inflate(0.01);
-    let mut by_the_middle = 0;
-    for (drag, force, v) in cases() {
-        let room = drag.map(|term| 0.3 * term.abs());
-        let over = core::array::from_fn(|k| Interval::point(drag[k]).inflate(room[k]));
-        let least = Drag(over).least(v, Interval::point(force).inflate(0.2), lasted);
-        let middle = Drag(drag.map(Interval::point)).least(v, Interval::point(force), Interval::point(LASTED_S));
-        for corner in 0..16 {
-            let side = |k: usize| if corner >> k & 1 == 1 { 1.0 } else { -1.0 };
-            let own = core::array::from_fn(|k| drag[k] + side(k) * room[k]);
-            let reached = end(&motion(own, force + 0.2 * side(3), v));
-            assert!(least <= reached + MISSED, "{drag:?} {force} {v}: {least} is above {reached}");
-            by_the_middle += usize::from(middle > reached + MISSED);
+fn readings_that_go_to_and_fro_clash_and_those_of_a_motion_do_not() {
+    let mut problem = Known::of(&LINEAR, SAMPLES, true).problem;
+    let at = problem.search.clone();
+    assert!(problem.contradiction(&at).is_empty());
+    problem.records[0].value[45] += 3.0 * QUANTUM;
+    let clashing = problem.contradiction(&at);
+    assert!(clashing.iter().any(|part| part.sample == 45), "{clashing:?}");
+    // The reading is too high: the model stays below it.
+    assert!(clashing.iter().filter(|part| part.sample == 45).all(|part| !part.model_above), "{clashing:?}");
+    assert!((clashing.iter().map(|part| part.share).sum::<f64>() - 1.0).abs() < 1e-12);
+}
+
+/// Velocities that are outside: at samples, and at either end of the times between.
+fn missed(truth: &[f64], speeds: &Velocities) -> usize {
+    let here = truth.iter().zip(&speeds.at_samples).filter(|(v, speed)| !speed.contains(**v));
+    let between =
+        truth.windows(2).zip(&speeds.between).filter(|(pair, speed)| !pair.iter().all(|v| speed.contains(*v)));
+    here.count() + between.count()
+}
+
+#[test]
+fn velocities_are_enclosed_and_accelerations_turned_round_or_a_prompt_force_miss_them() {
+    let lagged = VehicleTerms { lag_rate: 3.0, delayed: 40, ..LINEAR };
+    let other = VehicleTerms { quadratic: 0.3, cubic: 0.1, stiffness: 0.2, ..LINEAR };
+    for vehicle in [LINEAR, lagged, other] {
+        let known = Known::of(&vehicle, SAMPLES, true);
+        for width in [0.02, 0.2, 0.6] {
+            let found = known.problem.velocities(0, &known.about(0.0, width)).expect("velocities");
+            assert_eq!(missed(&speeds(&known), &found), 0, "{width}");
         }
     }
-    assert!(by_the_middle > 100, "the middle alone is wrong {by_the_middle} times");
+    let known = Known::of(&LINEAR, SAMPLES, true);
+    let mut turned = known.problem.velocities(0, &known.about(0.0, 0.02)).expect("velocities");
+    turned.rates.iter_mut().for_each(|rate| *rate = -*rate);
+    let met = known.problem.accelerated(0, &mut turned);
+    assert!(met.is_none() || missed(&speeds(&known), &turned) > 0);
+    let (known, prompt) = (Known::of(&lagged, SAMPLES, true), VehicleTerms { lag_rate: 0.0, ..lagged });
+    let problem = Problem::new(&[&record(&known.motion)], &prompt.model(true)).expect("a problem");
+    let found = problem.velocities(0, &Known::of(&prompt, SAMPLES, true).about(0.0, 0.01));
+    assert!(found.is_none_or(|found| missed(&speeds(&known), &found) > 10));
+}
+
+#[test]
+fn late_stamps_are_granted_and_on_time_they_would_miss_the_velocity() {
+    let fine = LINEAR.motion(SAMPLES * 5);
+    // Every fifth place, the reading of one earlier, of itself, or of one later.
+    let taken = |k: usize| if k == 0 { 0 } else { (5 * k + 1).saturating_sub(k % 3) };
+    let time_s = (0..SAMPLES).map(|k| 0.5 * k as f64).collect();
+    let output = (0..SAMPLES).map(|k| (fine[taken(k)].0[0] / QUANTUM).round() * QUANTUM).collect();
+    let record = Record::new(time_s, output, (0..SAMPLES).map(|k| fine[5 * k].1).collect()).expect("a record");
+    let at = Known::of(&LINEAR, SAMPLES, true).about(0.0, 0.1);
+    let missed = |jitter_s: f64| {
+        let problem = Problem::new(&[&record], &BoundedModel { jitter_s, ..LINEAR.model(true) }).expect("a problem");
+        let found = problem.velocities(0, &at)?;
+        let inside =
+            |speed: &Interval, from: usize, to: usize| fine[from..=to].iter().all(|own| speed.contains(own.0[1]));
+        let samples = found.at_samples.iter().enumerate().filter(|(k, speed)| !inside(speed, 5 * k, 5 * k)).count();
+        let between = found.between.iter().enumerate().filter(|(k, speed)| !inside(speed, 5 * k, 5 * k + 5));
+        Some(samples + between.count())
+    };
+    assert_eq!(missed(0.101), Some(0));
+    assert!(missed(0.0).is_none_or(|missed| missed > 10), "{:?}", missed(0.0));
 }
