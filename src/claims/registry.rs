@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 use super::distortion::Distortion;
 use super::{Budget, CLAIMS, ClaimDomain, Verdict, Word};
 use crate::orbit::theorem::Theorem;
-use crate::proof::inequality::Inequality;
 
 /// A checker: the same budget gives the same verdict.
 pub type Checker = fn(Budget) -> Verdict;
@@ -87,8 +86,8 @@ pub struct Claim {
     pub falsified: Checker,
     /// The proof by enclosure that it declares; the statement is undecided where that does not succeed.
     pub(crate) proof: Option<Prover>,
-    /// The inequalities that its checker proves, and a false inequality among them.
-    pub(crate) theorem: Option<(&'static Theorem, &'static Inequality)>,
+    /// The inequalities that its checker proves.
+    pub(crate) theorem: Option<&'static Theorem>,
     /// Assumptions of the statement that holds.
     pub hypotheses: &'static [Hypothesis],
     /// Text of its page: domain, dependencies, steps by hand.
@@ -235,13 +234,7 @@ impl Claim {
     /// The inequalities that the claim rests on.
     #[must_use]
     pub fn theorem(&self) -> Option<&'static Theorem> {
-        self.theorem.map(|(theorem, _)| theorem)
-    }
-
-    /// A false inequality next to those of [`Self::theorem`], which the search must refute.
-    #[must_use]
-    pub fn false_inequality(&self) -> Option<&'static Inequality> {
-        self.theorem.map(|(_, false_one)| false_one)
+        self.theorem
     }
 
     /// The budget with a seed of this claim's own, and as many cases as it draws: they do not depend on the claims run before.
