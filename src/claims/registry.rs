@@ -15,7 +15,8 @@ pub type Checker = fn(Budget) -> Verdict;
 pub(crate) type Prover = fn(Distortion) -> Verdict;
 
 /// The sort of a claim's statement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// Fixes a meaning; the check is that the code means it.
     Definition,
@@ -27,20 +28,6 @@ pub enum Kind {
     Theorem,
     /// A sentence of the paper.
     Statement,
-}
-
-impl Kind {
-    /// One lower-case word.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Definition => "definition",
-            Self::Identity => "identity",
-            Self::Lemma => "lemma",
-            Self::Theorem => "theorem",
-            Self::Statement => "statement",
-        }
-    }
 }
 
 /// The statement as the paper has it.
@@ -56,13 +43,13 @@ pub enum AsPrinted {
     Absent,
 }
 
-/// A hypothesis, and whether the statement needs it.
+/// A hypothesis that the statement needs.
 #[derive(Clone, Copy, Debug)]
 pub struct Hypothesis {
     /// Short name.
     pub id: &'static str,
-    /// Refutes the statement by a case that violates this hypothesis alone; `None` without such a case.
-    pub counterexample: Option<Checker>,
+    /// Refutes the statement by a case that violates this hypothesis alone.
+    pub counterexample: Checker,
 }
 
 /// A definition, lemma, theorem or identity with its checkers; its page has the rest.
@@ -88,7 +75,7 @@ pub struct Claim {
     pub(crate) proof: Option<Prover>,
     /// The inequalities that its checker proves.
     pub(crate) theorem: Option<&'static Theorem>,
-    /// Assumptions of the statement that holds.
+    /// Assumptions of the statement that holds, those of which a case shows the need; its page has them all.
     pub hypotheses: &'static [Hypothesis],
     /// Text of its page: domain, dependencies, steps by hand.
     pub spec: &'static str,
@@ -257,7 +244,6 @@ impl Claim {
 /// | `corrected check and check` | the checks of the statement as corrected; `backed by` a proof |
 /// | `false check` | a false variant, which must be refuted |
 /// | `needs "id" check` | a hypothesis: the check refutes the statement without it |
-/// | `states "id"` | a hypothesis without such a check |
 /// | `theorem`, `proof`, `not_proved` | the field of [`Claim`] |
 /// | `exactly f on "part" at points` | the proof: f vanishes identically on a part of the domain, in the cases where the points lie |
 macro_rules! claim {
@@ -267,7 +253,6 @@ macro_rules! claim {
         $(corrected $($as_corrected:ident($($c:expr),*))and+ $(backed by $backing:expr)?;)?
         false $falsified:ident($($f:expr),*);
         $(needs $needed:literal $without:ident($($w:expr),*);)*
-        $(states $stated:literal;)*
         $(theorem $theorem:expr;)?
         $(proof $proof:expr;)?
         $(exactly $($functions:ident on $part:literal at $points:expr),+;)?
@@ -283,9 +268,8 @@ macro_rules! claim {
             hypotheses: &[
                 $($crate::claims::Hypothesis {
                     id: $needed,
-                    counterexample: Some($crate::claims::registry::drawn!($without($($w),*))),
+                    counterexample: $crate::claims::registry::drawn!($without($($w),*)),
                 },)*
-                $($crate::claims::Hypothesis { id: $stated, counterexample: None },)*
             ],
             $(theorem: Some($theorem),)?
             $(proof: Some($proof),)?

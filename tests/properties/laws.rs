@@ -5,9 +5,7 @@ use proptest::prelude::*;
 use quickcheck::TestResult;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
-use selfosc::describing::{
-    CATALOGUE, ClosedForm, Entry, Setting, amplitudes, by_quadrature, fit, nearest_amplitude, over_amplitudes,
-};
+use selfosc::describing::{CATALOGUE, ClosedForm, Entry, Setting, amplitudes, by_quadrature, fit, over_amplitudes};
 use selfosc::nonlinearity::{
     Affine, Branch, Characteristic, ParameterDomain, Polyline, Power, Relay, RelayHysteresis, Saturation, Sinusoid, Sum,
 };
@@ -282,11 +280,9 @@ fn the_amplitude_comes_back_from_the_gain() {
         let sweep = Sinusoid::new(0.1, 1.3 * example.amplitude).unwrap();
         let df = characteristic.describing_function(&sweep).unwrap();
         let range = 0.01 * example.amplitude..=10.0 * example.amplitude;
-        let found = amplitudes(&*characteristic, 0.1, df.p, range.clone()).unwrap();
+        let found = amplitudes(&*characteristic, 0.1, df.p, range).unwrap();
         let back = found.iter().any(|solution| (solution.amplitude / sweep.amplitude() - 1.0).abs() < 1e-6);
         assert!(back || entry.name == "absolute" && df.p == 0.0, "{}: {found:?} for {sweep:?} {df:?}", entry.name);
-        let (_, distance) = nearest_amplitude(&*characteristic, 0.1, (df.p, df.q), range).unwrap();
-        assert!(distance <= 1e-7 * df.p.abs(), "{}: {distance}", entry.name);
     }
 }
 

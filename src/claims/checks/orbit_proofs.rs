@@ -117,7 +117,7 @@ fn beyond_the_level(draw: &mut Draw) -> Option<Case> {
 }
 
 const BELOW_LEVEL: Hypothesis =
-    Hypothesis { id: "disturbance-below-level", counterexample: Some(drawn!(beyond_the_level())) };
+    Hypothesis { id: "disturbance-below-level", counterexample: drawn!(beyond_the_level()) };
 
 /// Claims that inequalities establish: theorem, false inequality, parts of the domain, further proofs, hypotheses.
 macro_rules! enclosed {
