@@ -3,7 +3,7 @@
 use selfosc::control::{Gains, OpenLoop, RelayTest, Structure, Tuning};
 use selfosc::describing::{by_quadrature, harmonic};
 use selfosc::identify::iso::Oscillation;
-use selfosc::nonlinearity::{Power, RelayHysteresis, Sinusoid};
+use selfosc::nonlinearity::{Power, Sinusoid};
 use selfosc::numeric::Interval;
 use selfosc::orbit::{TwoLevelRelay, orbits};
 use selfosc::plant::{DragAxis, TransferFunction};
@@ -84,7 +84,6 @@ fn harmonics_are_finite_or_refused() {
                 assert!(sine.is_finite() && cosine.is_finite(), "{size} {amplitude}");
             }
         }
-        let relay = RelayHysteresis::new(size, 0.5, 0.0).unwrap();
     }
 }
 

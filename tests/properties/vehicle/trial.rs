@@ -210,8 +210,8 @@ fn neglected_terms_explain_the_difference() {
     let found = yaw.fit(&runs).estimate(AxisParameter::Alpha);
     // Water moved sideways: the identified inertia is below that of the uncoupled axis by more than its own error.
     assert!(found.spread.unwrap().high < truth.alpha);
-    let absorbed = runs.each_ref().map(|run| absorbed(run, &vehicle, Axis::Yaw));
-    let explained = truth.alpha + 0.5 * (absorbed[0] + absorbed[1]);
+    let added = runs.each_ref().map(|run| absorbed(run, &vehicle, Axis::Yaw));
+    let explained = truth.alpha + 0.5 * (added[0] + added[1]);
     assert!((found.value - explained).abs() < 2.0 * found.spread.unwrap().std, "{found:?} {explained}");
     let none = uncoupled();
     let run = yaw.run(&none, yaw.levels[0], 0.0);
