@@ -20,7 +20,7 @@ fn plant(numerator: &[f64], denominator: &[f64], delay_s: f64) -> TransferFuncti
 /// A symmetric oscillation of frequency w under a relay of level C and half-width x_a has
 /// `(4 C/pi) Im = -x_a` and `Re < 0` in the limit of many terms (Tsypkin, *Relay Control Systems*, 1984). The
 /// remainder of the imaginary part falls as `terms^-r`, with r the excess of poles over zeros, at least 2 of them.
-pub fn tsypkin_locus(plant: &StateSpace, omega_rad_s: f64, terms: usize) -> Complex<f64> {
+pub(crate) fn tsypkin_locus(plant: &StateSpace, omega_rad_s: f64, terms: usize) -> Complex<f64> {
     // Smallest first.
     let odd = (0..terms).rev().map(|index| (2 * index + 1) as f64);
     odd.fold(Complex::new(0.0, 0.0), |locus, k| {
