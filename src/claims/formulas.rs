@@ -1,14 +1,14 @@
 //! The program's formulas as definitions of Coq: the code that runs, evaluated over symbols, as the subject of proofs by a kernel.
 
 use super::CLAIMS;
-use super::checks::SingleKernel;
+use super::checks::kernels::{BRANCHES, SIDES};
 use crate::describing::{ClosedForm, DescribingFunction, bias_of_output};
 use crate::identify::fit::select::pairwise::relative_spread_percent;
 use crate::identify::iso::{amplitude_sensitivity, parameters};
 use crate::nonlinearity::{
-    Absolute, Backlash, Branches, Catalogued, DeadZone, DeadZoneSaturation, GainChanging, Kernel, NonlinearityError,
-    PiecewiseLinear, Polyline, Polynomial, Preload, Quantizer, Relay, RelayDeadZone, RelayDeadZoneHysteresis,
-    RelayHysteresis, Saturation, SaturationAsymmetric, Side, Sinusoid,
+    Absolute, Backlash, DeadZone, DeadZoneSaturation, GainChanging, Kernel, NonlinearityError, PiecewiseLinear,
+    Polyline, Polynomial, Preload, Quantizer, Relay, RelayDeadZone, RelayDeadZoneHysteresis, RelayHysteresis,
+    Saturation, SaturationAsymmetric, Sinusoid,
 };
 use crate::numeric::{Interval, Real};
 use crate::orbit;
@@ -22,8 +22,8 @@ const NOT_NEGATIVE: [f64; 2] = [0.0, f64::MAX];
 /// The power of two by which a band avoids overflow is 1 for these amplitudes; `kernel-band` proves that every power gives the same.
 const NEAR_ONE: [f64; 2] = [f64::MIN_POSITIVE, 1.5];
 
-const BIAS: NamedRange = ("bias", ANY);
-const AMPLITUDE: NamedRange = ("amplitude", POSITIVE);
+const SMALL: [f64; 2] = [0.0, 1.0];
+const LARGE: [f64; 2] = [2.0, f64::MAX];
 
 /// Every formula, in the order of the claims: the text of `Formulas.v`.
 ///
@@ -61,21 +61,6 @@ type NamedRange = (&'static str, [f64; 2]);
 struct Theory(String);
 
 impl Theory {
-    /// A characteristic, made of its parameters, as the list of its kernels; bias and amplitude come last.
-    fn member<C: PiecewiseLinear<Number = Expression>, const N: usize>(
-        &mut self,
-        name: &str,
-        quantities: [NamedRange; N],
-        made: fn(&[Expression]) -> Result<C, NonlinearityError>,
-    ) {
-        self.define(name, quantities, |at| {
-            let (parameters, &[bias, amplitude]) = at.split_last_chunk()?;
-            let mut terms = Vec::new();
-            made(parameters).ok()?.kernels(&Sinusoid::new(bias, amplitude).ok()?, |kernel| terms.push(term(kernel)));
-            Some(format!("[{}]", terms.join("; ")))
-        });
-    }
-
     /// A formula of quantities in ranges. An undefined formula is omitted, and every proof about it breaks.
     fn define<const N: usize>(
         &mut self,
@@ -93,61 +78,62 @@ impl Theory {
     }
 }
 
-/// Several numbers as a tuple.
-fn tuple<const N: usize>(terms: [Expression; N]) -> Option<String> {
-    Some(format!("({})", terms.map(Expression::coq).join(", ")))
+/// A number, or several as a tuple.
+fn tuple<const N: usize>(terms: [Expression; N]) -> String {
+    let terms = terms.map(Expression::coq).join(", ");
+    if N == 1 { terms } else { format!("({terms})") }
 }
 
-fn describing(df: DescribingFunction<Expression>) -> Option<String> {
-    tuple([df.f0, df.p, df.q])
+/// Rows: the name of a definition, its quantities with their ranges, its numbers.
+macro_rules! define {
+    ($theory:ident; $($name:literal, [$($quantity:ident: $range:expr),+] => $numbers:expr;)+) => {$(
+        $theory.define($name, [$((stringify!($quantity), $range)),+], |[$($quantity),+]| Some(tuple($numbers)));
+    )+};
+}
+
+/// The same of a characteristic's term on a sweep, any or those given: bias and amplitude come last.
+macro_rules! swept {
+    ($theory:ident, $term:ident;
+     $($name:expr, [$($quantity:ident: $range:expr),+] $(on $sweep:expr)? => $characteristic:expr;)+) => {$(
+        let [bias, amplitude] = [$($sweep,)? [ANY, POSITIVE]][0];
+        let quantities = [$((stringify!($quantity), $range),)+ ("bias", bias), ("amplitude", amplitude)];
+        $theory.define(&$name, quantities, |[$($quantity,)+ bias, amplitude]| {
+            $term($characteristic.ok()?, &Sinusoid::new(bias, amplitude).ok()?)
+        });
+    )+};
 }
 
 /// The closed form of each kernel, on each side and branch.
 fn kernels(theory: &mut Theory) {
-    let branches = [Branches::Both, Branches::Rising, Branches::Falling];
-    let of = |kernel, bias, amplitude| {
-        describing(SingleKernel(kernel).describing_function(&Sinusoid::new(bias, amplitude).ok()?).ok()?)
-    };
-    let sided = branches.into_iter().flat_map(|on| [Side::Above, Side::Below].map(|side| (side, on)));
-    for (side, branches) in sided {
+    fn closed(of: impl ClosedForm<Number = Expression>, sweep: &Sinusoid<Expression>) -> Option<String> {
+        of.describing_function(sweep).ok().map(|df| tuple([df.f0, df.p, df.q]))
+    }
+    let ok = Ok::<Kernel<Expression>, NonlinearityError>;
+    for (side, branches) in BRANCHES.into_iter().flat_map(|on| SIDES.map(|side| (side, on))) {
         let place = format!("{side:?}_{branches:?}").to_lowercase();
-        theory.define(
-            &format!("step_{place}"),
-            [("at_", ANY), ("height", ANY), BIAS, AMPLITUDE],
-            |[at, height, b, x]| of(Kernel::Step { at, height, side, branches }, b, x),
-        );
-        theory.define(
-            &format!("ramp_{place}"),
-            [("at_", ANY), ("slope", ANY), BIAS, AMPLITUDE],
-            |[at, slope, b, x]| of(Kernel::Ramp { at, slope, side, branches }, b, x),
-        );
+        swept! { theory, closed;
+            format!("step_{place}"), [at_: ANY, height: ANY] => ok(Kernel::Step { at: at_, height, side, branches });
+            format!("ramp_{place}"), [at_: ANY, slope: ANY] => ok(Kernel::Ramp { at: at_, slope, side, branches });
+        }
     }
-    for branches in branches {
+    for branches in BRANCHES {
         let place = format!("{branches:?}").to_lowercase();
-        theory.define(
-            &format!("sign_{place}"),
-            [("at_", ANY), ("level", ANY), BIAS, AMPLITUDE],
-            |[at, level, b, x]| of(Kernel::Sign { at, level, branches }, b, x),
-        );
-        theory.define(&format!("constant_{place}"), [("value", ANY), BIAS, AMPLITUDE], |[value, b, x]| {
-            of(Kernel::Constant { value, branches }, b, x)
-        });
+        swept! { theory, closed;
+            format!("sign_{place}"), [at_: ANY, level: ANY] => ok(Kernel::Sign { at: at_, level, branches });
+            format!("constant_{place}"), [value: ANY] => ok(Kernel::Constant { value, branches });
+        }
     }
-    theory.define("line_df", [("slope", ANY), BIAS, AMPLITUDE], |[slope, b, x]| of(Kernel::Line { slope }, b, x));
-    let band = [("origin", ANY), ("lower", ANY), ("upper", ANY), ("slope", ANY), BIAS, ("amplitude", NEAR_ONE)];
-    theory.define("band", band, |[origin, lower, upper, slope, b, x]| {
-        of(Kernel::Band { origin, lower, upper, slope }, b, x)
-    });
-    let coefficients = ["c0", "c1", "c2", "c3", "c4", "c5"].map(|name| (name, ANY));
-    let [c0, c1, c2, c3, c4, c5] = coefficients;
-    theory.define("polynomial", [c0, c1, c2, c3, c4, c5, BIAS, AMPLITUDE], |[c0, c1, c2, c3, c4, c5, b, x]| {
-        let polynomial = Polynomial::new([c0, c1, c2, c3, c4, c5]).ok()?;
-        describing(polynomial.describing_function(&Sinusoid::new(b, x).ok()?).ok()?)
-    });
+    swept! { theory, closed;
+        "line_df", [slope: ANY] => ok(Kernel::Line { slope });
+        "band", [origin: ANY, lower: ANY, upper: ANY, slope: ANY] on [ANY, NEAR_ONE]
+            => ok(Kernel::Band { origin, lower, upper, slope });
+        "polynomial", [c0: ANY, c1: ANY, c2: ANY, c3: ANY, c4: ANY, c5: ANY]
+            => Polynomial::new([c0, c1, c2, c3, c4, c5]);
+    }
 }
 
 /// A kernel as a term of `Catalogue.v`.
-fn term(kernel: Kernel<Expression>) -> String {
+fn kernel_term(kernel: Kernel<Expression>) -> String {
     let (name, numbers, place) = match kernel {
         Kernel::Constant { value, branches } => ("Constant", vec![value], format!(" {branches:?}")),
         Kernel::Line { slope } => ("Line", vec![slope], String::new()),
@@ -162,98 +148,85 @@ fn term(kernel: Kernel<Expression>) -> String {
 
 /// Each member of the piecewise-linear catalogue as its list of kernels: its parameters, bias and amplitude.
 fn members(theory: &mut Theory) {
-    const LEVEL: NamedRange = ("level", POSITIVE);
-    const SLOPE: NamedRange = ("slope", POSITIVE);
-    const SMALL: [f64; 2] = [0.0, 1.0];
-    const LARGE: [f64; 2] = [2.0, f64::MAX];
-    theory.member("relay", [LEVEL, BIAS, AMPLITUDE], Relay::from_values);
-    theory.member("relay_dead_zone", [LEVEL, ("dead_zone", NOT_NEGATIVE), BIAS, AMPLITUDE], RelayDeadZone::from_values);
-    let hysteresis = [LEVEL, ("half_width", NOT_NEGATIVE), ("offset", ANY), BIAS, AMPLITUDE];
-    theory.member("relay_hysteresis", hysteresis, RelayHysteresis::from_values);
-    let three_levels = [LEVEL, ("on_", LARGE), ("off", SMALL), BIAS, AMPLITUDE];
-    theory.member("relay_dead_zone_hysteresis", three_levels, RelayDeadZoneHysteresis::from_values);
-    theory.member("saturation", [SLOPE, ("breakpoint", POSITIVE), BIAS, AMPLITUDE], Saturation::from_values);
-    let unequal = [SLOPE, ("lower", SMALL), ("upper", LARGE), BIAS, AMPLITUDE];
-    theory.member("saturation_asymmetric", unequal, SaturationAsymmetric::from_values);
-    theory.member("dead_zone", [SLOPE, ("half_width", NOT_NEGATIVE), BIAS, AMPLITUDE], DeadZone::from_values);
-    let dead_then_limited = [SLOPE, ("half_width", SMALL), ("breakpoint", LARGE), BIAS, AMPLITUDE];
-    theory.member("dead_zone_saturation", dead_then_limited, DeadZoneSaturation::from_values);
-    // By the three orders of the slopes.
-    for (order, inner, outer) in [(1, [1.0, 2.0], SMALL), (2, [0.5, 1.0], [1.25, 2.0]), (3, [1.0, 2.0], [-2.0, -1.0])] {
-        let quantities = [("inner", inner), ("outer", outer), ("breakpoint", POSITIVE), BIAS, AMPLITUDE];
-        theory.member(&format!("gain_changing_{order}"), quantities, GainChanging::from_values);
+    fn list(of: impl PiecewiseLinear<Number = Expression>, sweep: &Sinusoid<Expression>) -> Option<String> {
+        let mut terms = Vec::new();
+        of.kernels(sweep, |kernel| terms.push(kernel_term(kernel)));
+        Some(format!("[{}]", terms.join("; ")))
     }
-    theory.member("preload", [SLOPE, LEVEL, BIAS, AMPLITUDE], Preload::from_values);
-    // Two treads either way.
-    let two_treads = [("tread", [1.0, 1.0]), ("bias", [0.0, 0.0]), ("amplitude", [2.25, 2.25])];
-    theory.member("quantizer", two_treads, Quantizer::from_values);
-    theory.member("absolute", [("gain", ANY), BIAS, AMPLITUDE], Absolute::from_values);
-    let [x0, x1, x2] = [("x0", [-2.0, -1.0]), ("x1", [0.0, 1.0]), ("x2", [2.0, 3.0])];
-    let [y0, y1, y2, left, right] = ["y0", "y1", "y2", "left", "right"].map(|name| (name, ANY));
-    // The bias near the middle of three points.
-    theory.member("polyline", [x0, y0, x1, y1, x2, y2, left, right, ("bias", SMALL), AMPLITUDE], |v| {
-        Polyline::new([(v[0], v[1]), (v[2], v[3]), (v[4], v[5])], v[6], v[7])
-    });
-    theory.member("backlash", [SLOPE, ("half_gap", NOT_NEGATIVE), BIAS, AMPLITUDE], Backlash::from_values);
+    swept! { theory, list;
+        "relay", [level: POSITIVE] => Relay::new(level);
+        "relay_dead_zone", [level: POSITIVE, dead_zone: NOT_NEGATIVE] => RelayDeadZone::new(level, dead_zone);
+        "relay_hysteresis", [level: POSITIVE, half_width: NOT_NEGATIVE, offset: ANY]
+            => RelayHysteresis::new(level, half_width, offset);
+        "relay_dead_zone_hysteresis", [level: POSITIVE, on_: LARGE, off: SMALL]
+            => RelayDeadZoneHysteresis::new(level, on_, off);
+        "saturation", [slope: POSITIVE, breakpoint: POSITIVE] => Saturation::new(slope, breakpoint);
+        "saturation_asymmetric", [slope: POSITIVE, lower: SMALL, upper: LARGE]
+            => SaturationAsymmetric::new(slope, lower, upper);
+        "dead_zone", [slope: POSITIVE, half_width: NOT_NEGATIVE] => DeadZone::new(slope, half_width);
+        "dead_zone_saturation", [slope: POSITIVE, half_width: SMALL, breakpoint: LARGE]
+            => DeadZoneSaturation::new(slope, half_width, breakpoint);
+        // By the three orders of the slopes.
+        "gain_changing_1", [inner: [1.0, 2.0], outer: SMALL, breakpoint: POSITIVE]
+            => GainChanging::new(inner, outer, breakpoint);
+        "gain_changing_2", [inner: [0.5, 1.0], outer: [1.25, 2.0], breakpoint: POSITIVE]
+            => GainChanging::new(inner, outer, breakpoint);
+        "gain_changing_3", [inner: [1.0, 2.0], outer: [-2.0, -1.0], breakpoint: POSITIVE]
+            => GainChanging::new(inner, outer, breakpoint);
+        "preload", [slope: POSITIVE, level: POSITIVE] => Preload::new(slope, level);
+        // Two treads either way.
+        "quantizer", [tread: [1.0, 1.0]] on [[0.0, 0.0], [2.25, 2.25]] => Quantizer::new(tread);
+        "absolute", [gain: ANY] => Absolute::new(gain);
+        // The bias near the middle of three points.
+        "polyline", [x0: [-2.0, -1.0], y0: ANY, x1: SMALL, y1: ANY, x2: [2.0, 3.0], y2: ANY, left: ANY, right: ANY]
+            on [SMALL, POSITIVE] => Polyline::new([(x0, y0), (x1, y1), (x2, y2)], left, right);
+        "backlash", [slope: POSITIVE, half_gap: NOT_NEGATIVE] => Backlash::new(slope, half_gap);
+    }
 }
 
 /// From describing function to parameters, and their basis.
 fn identification(theory: &mut Theory) {
-    let [f0, p, q] = ["f0", "p", "q"].map(|name| (name, ANY));
-    theory.define(
-        "relay_f0_by_times",
-        [("level", POSITIVE), ("t_high", POSITIVE), ("t_low", POSITIVE)],
-        |[c, h, l]| Some(bias_of_output(c, h, l).coq()),
-    );
-    theory.define("condition_40_least_amplitude", [("half_width", NOT_NEGATIVE), BIAS], |[width, bias]| {
-        Some(RelayHysteresis::new(Expression::one(), width, Expression::zero()).ok()?.least_amplitude(bias).coq())
-    });
-    theory.define("table_3", [f0, p, q, AMPLITUDE, ("omega", POSITIVE)], |[f0, p, q, amplitude, omega]| {
-        let found = parameters(DescribingFunction { f0, p, q }, amplitude, omega);
-        tuple([found.alpha, found.beta, found.beta_quadratic, found.disturbance])
-    });
-    theory.define("delay_rotation", [f0, p, q, ("phase", ANY)], |[f0, p, q, phase]| {
-        describing(DescribingFunction { f0, p, q }.delayed(phase))
-    });
-    theory.define("quantisation", [("ratio", [1.0, f64::MAX])], |[ratio]| {
-        let found = amplitude_sensitivity(ratio);
-        tuple([found.alpha, found.beta, found.beta_quadratic])
-    });
-    theory.define("relative_spread", [("first", ANY), ("second", ANY)], |[first, second]| {
-        Some(relative_spread_percent(first, second).coq())
-    });
-    let bilinear_thrust = [("by_rate", POSITIVE), ("by_speed", NOT_NEGATIVE), ("rate", ANY), ("speed", ANY)];
-    theory.define("thruster_bilinear", bilinear_thrust, |[by_rate, by_speed, rate, speed]| {
-        Some(bilinear([by_rate, by_speed], rate, speed).coq())
-    });
-    theory.define("allocation_forces", [("arm", POSITIVE), ("tau_1", ANY), ("tau_2", ANY)], |[arm, one, two]| {
-        tuple(Allocation::pair(arm).ok()?.forces(&[one, two]))
-    });
-    // The inverse of the least arm has to be a number.
-    let arm = ("arm", [f64::MIN_POSITIVE, 1.0]);
-    theory.define("allocation_thrusts", [arm, ("force", ANY), ("moment", ANY)], |[arm, force, moment]| {
-        tuple(Allocation::pair(arm).ok()?.thrusts(&[force, moment]))
-    });
+    define! { theory;
+        "relay_f0_by_times", [level: POSITIVE, t_high: POSITIVE, t_low: POSITIVE]
+            => [bias_of_output(level, t_high, t_low)];
+        "condition_40_least_amplitude", [half_width: NOT_NEGATIVE, bias: ANY]
+            => [RelayHysteresis::new(Expression::one(), half_width, Expression::zero()).ok()?.least_amplitude(bias)];
+        "table_3", [f0: ANY, p: ANY, q: ANY, amplitude: POSITIVE, omega: POSITIVE] => {
+            let found = parameters(DescribingFunction { f0, p, q }, amplitude, omega);
+            [found.alpha, found.beta, found.beta_quadratic, found.disturbance]
+        };
+        "delay_rotation", [f0: ANY, p: ANY, q: ANY, phase: ANY] => {
+            let turned = DescribingFunction { f0, p, q }.delayed(phase);
+            [turned.f0, turned.p, turned.q]
+        };
+        "quantisation", [ratio: [1.0, f64::MAX]] => {
+            let found = amplitude_sensitivity(ratio);
+            [found.alpha, found.beta, found.beta_quadratic]
+        };
+        "relative_spread", [first: ANY, second: ANY] => [relative_spread_percent(first, second)];
+        "thruster_bilinear", [by_rate: POSITIVE, by_speed: NOT_NEGATIVE, rate: ANY, speed: ANY]
+            => [bilinear([by_rate, by_speed], rate, speed)];
+        "allocation_forces", [arm: POSITIVE, tau_1: ANY, tau_2: ANY]
+            => Allocation::pair(arm).ok()?.forces(&[tau_1, tau_2]);
+        // The inverse of the least arm has to be a number.
+        "allocation_thrusts", [arm: [f64::MIN_POSITIVE, 1.0], force: ANY, moment: ANY]
+            => Allocation::pair(arm).ok()?.thrusts(&[force, moment]);
+    }
 }
 
 /// The exact orbits of a drag axis.
 fn orbits(theory: &mut Theory) {
-    const G: NamedRange = ("g", POSITIVE);
-    const MU: NamedRange = ("mu", [-1.0, 1.0]);
-    theory.define("quadratic_half_cycle", [("y", ANY), ("gap", [0.0, 1.0]), ("ratio", POSITIVE)], |[y, gap, ratio]| {
-        Some(orbit::quadratic_half_cycle(y, gap, ratio).coq())
-    });
-    theory.define("quadratic_speeds", [("gap", [0.0, 1.0]), MU], |[gap, mu]| tuple(orbit::quadratic_speeds(gap, mu)));
-    theory.define("quadratic_period", [G], |[g]| Some(orbit::quadratic_period(g).coq()));
-    let half_cycle = [("speed", NOT_NEGATIVE), ("next", NOT_NEGATIVE), G, ("ratio", POSITIVE)];
-    theory.define("linear_half_cycle", half_cycle, |[speed, next, g, ratio]| {
-        Some(orbit::linear_half_cycle(speed, next, g, ratio).coq())
-    });
-    theory.define("linear_half_width", [("z", POSITIVE)], |[z]| Some(orbit::linear_half_width(z).coq()));
-    theory.define("linear_amplitude_excess", [("z", POSITIVE)], |[z]| Some(orbit::linear_amplitude_excess(z).coq()));
-    theory.define("return_slope", [MU, ("d_1", NOT_NEGATIVE), ("d_2", NOT_NEGATIVE)], |[mu, first, second]| {
-        tuple(orbit::return_slope(mu, [first, second]))
-    });
+    const MU: [f64; 2] = [-1.0, 1.0];
+    define! { theory;
+        "quadratic_half_cycle", [y: ANY, gap: SMALL, ratio: POSITIVE] => [orbit::quadratic_half_cycle(y, gap, ratio)];
+        "quadratic_speeds", [gap: SMALL, mu: MU] => orbit::quadratic_speeds(gap, mu);
+        "quadratic_period", [g: POSITIVE] => [orbit::quadratic_period(g)];
+        "linear_half_cycle", [speed: NOT_NEGATIVE, next: NOT_NEGATIVE, g: POSITIVE, ratio: POSITIVE]
+            => [orbit::linear_half_cycle(speed, next, g, ratio)];
+        "linear_half_width", [z: POSITIVE] => [orbit::linear_half_width(z)];
+        "linear_amplitude_excess", [z: POSITIVE] => [orbit::linear_amplitude_excess(z)];
+        "return_slope", [mu: MU, d_1: NOT_NEGATIVE, d_2: NOT_NEGATIVE] => orbit::return_slope(mu, [d_1, d_2]);
+    }
 }
 
 /// The expression of each inequality of the orbit theorems, as its certificate prints it.

@@ -33,7 +33,7 @@ pub use sampling::Budget;
 pub use checks::method_bias;
 
 internal! {
-    use checks::{band, decomposition, power_law, single, step, vehicle_proofs};
+    use checks::{band, decomposition, power_law, step, vehicle_proofs};
     use distortion::{Distortion};
 }
 

@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 use super::distortion::Distortion;
 use super::{Budget, CLAIMS, ClaimDomain, Verdict, Word};
 use crate::orbit::theorem::Theorem;
-use crate::proof::inequality::Inequality;
 
 /// A checker: the same budget gives the same verdict.
 pub type Checker = fn(Budget) -> Verdict;
@@ -16,7 +15,8 @@ pub type Checker = fn(Budget) -> Verdict;
 pub(crate) type Prover = fn(Distortion) -> Verdict;
 
 /// The sort of a claim's statement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// Fixes a meaning; the check is that the code means it.
     Definition,
@@ -28,20 +28,6 @@ pub enum Kind {
     Theorem,
     /// A sentence of the paper.
     Statement,
-}
-
-impl Kind {
-    /// One lower-case word.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Definition => "definition",
-            Self::Identity => "identity",
-            Self::Lemma => "lemma",
-            Self::Theorem => "theorem",
-            Self::Statement => "statement",
-        }
-    }
 }
 
 /// The statement as the paper has it.
@@ -57,13 +43,13 @@ pub enum AsPrinted {
     Absent,
 }
 
-/// A hypothesis, and whether the statement needs it.
+/// A hypothesis that the statement needs.
 #[derive(Clone, Copy, Debug)]
 pub struct Hypothesis {
     /// Short name.
     pub id: &'static str,
-    /// Refutes the statement by a case that violates this hypothesis alone; `None` without such a case.
-    pub counterexample: Option<Checker>,
+    /// Refutes the statement by a case that violates this hypothesis alone.
+    pub counterexample: Checker,
 }
 
 /// A definition, lemma, theorem or identity with its checkers; its page has the rest.
@@ -87,9 +73,9 @@ pub struct Claim {
     pub falsified: Checker,
     /// The proof by enclosure that it declares; the statement is undecided where that does not succeed.
     pub(crate) proof: Option<Prover>,
-    /// The inequalities that its checker proves, and a false inequality among them.
-    pub(crate) theorem: Option<(&'static Theorem, &'static Inequality)>,
-    /// Assumptions of the statement that holds.
+    /// The inequalities that its checker proves.
+    pub(crate) theorem: Option<&'static Theorem>,
+    /// Assumptions of the statement that holds, those of which a case shows the need; its page has them all.
     pub hypotheses: &'static [Hypothesis],
     /// Text of its page: domain, dependencies, steps by hand.
     pub spec: &'static str,
@@ -235,13 +221,7 @@ impl Claim {
     /// The inequalities that the claim rests on.
     #[must_use]
     pub fn theorem(&self) -> Option<&'static Theorem> {
-        self.theorem.map(|(theorem, _)| theorem)
-    }
-
-    /// A false inequality next to those of [`Self::theorem`], which the search must refute.
-    #[must_use]
-    pub fn false_inequality(&self) -> Option<&'static Inequality> {
-        self.theorem.map(|(_, false_one)| false_one)
+        self.theorem
     }
 
     /// The budget with a seed of this claim's own, and as many cases as it draws: they do not depend on the claims run before.
@@ -264,7 +244,6 @@ impl Claim {
 /// | `corrected check and check` | the checks of the statement as corrected; `backed by` a proof |
 /// | `false check` | a false variant, which must be refuted |
 /// | `needs "id" check` | a hypothesis: the check refutes the statement without it |
-/// | `states "id"` | a hypothesis without such a check |
 /// | `theorem`, `proof`, `not_proved` | the field of [`Claim`] |
 /// | `exactly f on "part" at points` | the proof: f vanishes identically on a part of the domain, in the cases where the points lie |
 macro_rules! claim {
@@ -274,7 +253,6 @@ macro_rules! claim {
         $(corrected $($as_corrected:ident($($c:expr),*))and+ $(backed by $backing:expr)?;)?
         false $falsified:ident($($f:expr),*);
         $(needs $needed:literal $without:ident($($w:expr),*);)*
-        $(states $stated:literal;)*
         $(theorem $theorem:expr;)?
         $(proof $proof:expr;)?
         $(exactly $($functions:ident on $part:literal at $points:expr),+;)?
@@ -290,9 +268,8 @@ macro_rules! claim {
             hypotheses: &[
                 $($crate::claims::Hypothesis {
                     id: $needed,
-                    counterexample: Some($crate::claims::registry::drawn!($without($($w),*))),
+                    counterexample: $crate::claims::registry::drawn!($without($($w),*)),
                 },)*
-                $($crate::claims::Hypothesis { id: $stated, counterexample: None },)*
             ],
             $(theorem: Some($theorem),)?
             $(proof: Some($proof),)?

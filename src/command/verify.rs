@@ -270,7 +270,7 @@ fn document(findings: &[(&Claim, Finding)]) -> Value {
         json!({
             "id": claim.id,
             "equation": claim.equation(),
-            "kind": claim.kind.word(),
+            "kind": claim.kind,
             "statement": claim.statement,
             "as_printed": finding.as_printed(),
             "as_corrected": finding.as_corrected(),

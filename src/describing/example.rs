@@ -11,87 +11,34 @@ pub struct Example {
     pub values: Vec<f64>,
 }
 
-/// The example on the page `spec/characteristics/<name>.md`: parameters with their numbers, points as input and output in turn.
-struct Page {
-    name: &'static str,
-    amplitude: f64,
-    settings: &'static [(&'static str, &'static [f64])],
-}
-
-/// The line `Sketch: ` of each page; a test compares the two.
-const PAGES: &[Page] = &[
-    Page { name: "absolute", amplitude: 1.0, settings: &[("gain", &[1.0])] },
-    Page { name: "arctan", amplitude: 5.0, settings: &[("gain", &[1.0]), ("scale", &[1.0])] },
-    Page { name: "backlash", amplitude: 1.0, settings: &[("slope", &[1.0]), ("half_gap", &[0.3])] },
-    Page {
-        name: "dead-zone-saturation",
-        amplitude: 1.0,
-        settings: &[("slope", &[1.0]), ("half_width", &[0.25]), ("breakpoint", &[0.7])],
-    },
-    Page { name: "dead-zone", amplitude: 1.0, settings: &[("slope", &[1.0]), ("half_width", &[0.35])] },
-    Page {
-        name: "gain-changing",
-        amplitude: 1.0,
-        settings: &[("inner_slope", &[1.0]), ("outer_slope", &[0.3]), ("breakpoint", &[0.4])],
-    },
-    Page {
-        name: "piecewise-linear",
-        amplitude: 1.0,
-        settings: &[
-            ("points", &[-0.6, -0.8, -0.2, -0.1, 0.1, 0.1, 0.5, 0.3, 0.7, 0.9]),
-            ("left_slope", &[0.0]),
-            ("right_slope", &[0.5]),
-        ],
-    },
-    Page { name: "polynomial", amplitude: 1.3, settings: &[("c1", &[-1.0]), ("c3", &[1.0])] },
-    Page { name: "power", amplitude: 1.0, settings: &[("gain", &[1.0]), ("exponent", &[2.0])] },
-    Page { name: "preload", amplitude: 1.0, settings: &[("slope", &[0.6]), ("level", &[0.4])] },
-    Page { name: "quantizer", amplitude: 1.0, settings: &[("step", &[0.4])] },
-    Page {
-        name: "relay-dead-zone-hysteresis",
-        amplitude: 1.0,
-        settings: &[("level", &[1.0]), ("on", &[0.6]), ("off", &[0.3])],
-    },
-    Page { name: "relay-dead-zone", amplitude: 1.0, settings: &[("level", &[1.0]), ("dead_zone", &[0.3])] },
-    Page {
-        name: "relay-hysteresis",
-        amplitude: 1.0,
-        settings: &[("level", &[1.0]), ("half_width", &[0.4]), ("offset", &[0.0])],
-    },
-    Page { name: "relay", amplitude: 1.0, settings: &[("level", &[1.0])] },
-    Page {
-        name: "saturation-asymmetric",
-        amplitude: 1.0,
-        settings: &[("slope", &[1.0]), ("lower", &[-0.3]), ("upper", &[0.7])],
-    },
-    Page { name: "saturation", amplitude: 1.0, settings: &[("slope", &[1.0]), ("breakpoint", &[0.5])] },
-    Page { name: "sine", amplitude: 4.0, settings: &[("gain", &[1.0]), ("frequency", &[1.0])] },
-    Page { name: "sinh", amplitude: 2.0, settings: &[("gain", &[1.0]), ("scale", &[1.0])] },
-    Page { name: "tanh", amplitude: 3.0, settings: &[("gain", &[1.0]), ("scale", &[1.0])] },
-];
-
 /// A describing function over amplitude at one bias: `(amplitude, F_0 P Q)`, or why there is none.
 pub type Curve = Vec<(f64, Result<DescribingFunction<f64>, DescribingError>)>;
 
 impl Entry {
-    /// The example on the page of this characteristic.
+    /// The example on the page of this characteristic, its line `Sketch: amplitude = 1; level = 1; half_width = 0.4.`
     ///
     /// # Errors
-    /// [`CatalogueError::UnknownName`] for an entry that is not of the catalogue; [`CatalogueError::MissingParameter`].
+    /// As [`Entry::values`], of a page whose line does not give the amplitude and every parameter.
     pub fn example(&self) -> Result<Example, CatalogueError> {
-        let page = PAGES.iter().find(|page| page.name == self.name).ok_or_else(|| CatalogueError::UnknownName {
-            name: self.name.to_owned(),
-            known: PAGES.iter().map(|page| page.name).collect::<Vec<_>>().join(", "),
-        })?;
-        let setting = |&(name, numbers): &(&str, &[f64])| {
-            let setting = match numbers {
-                [number] => Setting::Number(*number),
-                points => Setting::Points(points.chunks_exact(2).map(|point| (point[0], point[1])).collect()),
-            };
-            (name.to_owned(), setting)
+        let line = self.page.lines().find_map(|line| line.strip_prefix("Sketch: ")).unwrap_or_default();
+        let setting = |item: &str| {
+            let (name, value) = item.split_once(" = ").unwrap_or((item, ""));
+            Ok((name.to_owned(), value.parse()?))
         };
-        let settings: Vec<_> = page.settings.iter().map(setting).collect();
-        Ok(Example { amplitude: page.amplitude, values: self.values(&settings)? })
+        let items = line.trim_end_matches('.').split("; ").map(setting);
+        let (amplitude, settings): (Vec<_>, Vec<_>) = items
+            .collect::<Result<Vec<(String, Setting)>, CatalogueError>>()?
+            .into_iter()
+            .partition(|(name, _)| name == "amplitude");
+        let [(_, Setting::Number(amplitude))] = amplitude[..] else {
+            let meaning = "of the page's sketch";
+            return Err(CatalogueError::MissingParameter {
+                characteristic: self.name,
+                parameter: "amplitude",
+                meaning,
+            });
+        };
+        Ok(Example { amplitude, values: self.values(&settings)? })
     }
 
     /// `F_0`, `P`, `Q` of the characteristic with these parameter values over `amplitudes` at one bias.

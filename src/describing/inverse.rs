@@ -89,49 +89,6 @@ pub fn amplitudes(
     Ok(found)
 }
 
-/// The amplitude of `range` whose complex gain `P + jQ` is nearest to `p + jq`, and the distance: an error of the gain, in
-/// its units, that no amplitude explains.
-///
-/// # Errors
-/// As [`amplitudes`]; the error of the largest amplitude if there is no describing function anywhere.
-///
-/// ```
-/// use selfosc::describing::{ClosedForm, nearest_amplitude};
-/// use selfosc::nonlinearity::{RelayHysteresis, Sinusoid};
-/// let relay = RelayHysteresis::new(1.0, 0.5, 0.0)?;
-/// let df = relay.describing_function(&Sinusoid::new(0.0, 1.3)?)?;
-/// let (found, distance) = nearest_amplitude(&relay, 0.0, (df.p, df.q), 0.1..=10.0)?;
-/// assert!((found.amplitude - 1.3).abs() < 1e-7 && distance < 1e-7);
-/// # Ok::<(), selfosc::describing::DescribingError>(())
-/// ```
-pub fn nearest_amplitude(
-    characteristic: &(impl ClosedForm<Number = f64> + ?Sized),
-    bias: f64,
-    (p, q): (f64, f64),
-    range: RangeInclusive<f64>,
-) -> Result<(Solution, f64), DescribingError> {
-    domain::finite("wanted gain, in phase", p, "").map_err(NonlinearityError::from)?;
-    domain::finite("wanted gain, in quadrature", q, "").map_err(NonlinearityError::from)?;
-    let largest = *range.end();
-    let distance = |solution: Solution| libm::hypot(solution.df.p - p, solution.df.q - q);
-    let solve = |amplitude| at(characteristic, bias, amplitude);
-    let samples = sampled(characteristic, bias, range)?;
-    let order = |a: &usize, b: &usize| distance(samples[*a]).total_cmp(&distance(samples[*b]));
-    let Some(best) = (0..samples.len()).min_by(order) else {
-        return solve(largest).and_then(|solution| measured(solution, distance(solution)));
-    };
-    let (low, high) = (samples[best.saturating_sub(1)], samples[(best + 1).min(samples.len() - 1)]);
-    let refined = minimum(low, high, &solve, distance);
-    let nearest = if distance(refined) < distance(samples[best]) { refined } else { samples[best] };
-    measured(nearest, distance(nearest))
-}
-
-/// A solution and its distance, where that is a number.
-fn measured(solution: Solution, distance: f64) -> Result<(Solution, f64), DescribingError> {
-    let distance = domain::representable("distance of the gains", distance, "output units over input units");
-    Ok((solution, distance.map_err(NonlinearityError::from)?))
-}
-
 fn at(
     characteristic: &(impl ClosedForm<Number = f64> + ?Sized),
     bias: f64,

@@ -44,7 +44,7 @@ pub use error::DescribingError;
 #[cfg(feature = "std")]
 pub use fit::{FittedCharacteristic, fit};
 #[cfg(feature = "std")]
-pub use inverse::{Solution, amplitudes, nearest_amplitude};
+pub use inverse::{Solution, amplitudes};
 #[cfg(feature = "std")]
 pub use quadrature::by_quadrature;
 #[cfg(feature = "std")]

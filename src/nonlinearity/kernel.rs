@@ -1,5 +1,8 @@
 //! The building blocks of piecewise-linear characteristics.
 
+use super::{Branch, PiecewiseLinear, Sinusoid};
+use crate::numeric::Real;
+
 /// The branches of the sweep on which a kernel counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Branches {
@@ -114,5 +117,29 @@ impl<T> Kernel<T> {
                 report(upper);
             }
         }
+    }
+}
+
+/// A kernel is a characteristic by itself.
+impl<T: Real> PiecewiseLinear for Kernel<T> {
+    type Number = T;
+
+    fn value(&self, x: T, branch: Branch, _: &Sinusoid<T>) -> T {
+        let beyond = |at: T, side| if side == Side::Above { x - at } else { at - x };
+        let on = |branches, value: T| match (branches, branch) {
+            (Branches::Rising, Branch::Falling) | (Branches::Falling, Branch::Rising) => T::zero(),
+            _ => value,
+        };
+        match *self {
+            Self::Constant { value, branches } => on(branches, value),
+            Self::Line { slope } => slope * x,
+            Self::Step { at, height, side, branches } => on(branches, beyond(at, side).select(T::zero, || height)),
+            Self::Ramp { at, slope, side, branches } => on(branches, slope * beyond(at, side).max(T::zero())),
+            Self::Sign { at, level, branches } => on(branches, (x - at).select(|| -level, || level)),
+            Self::Band { origin, lower, upper, slope } => slope * (x.max(lower).min(upper) - origin),
+        }
+    }
+    fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Self)) {
+        report(*self);
     }
 }

@@ -7,7 +7,6 @@ mod drag_axis;
 mod error;
 mod half_cycle;
 #[cfg(feature = "std")]
-mod tsypkin;
 #[cfg(feature = "std")]
 mod two_level;
 
@@ -16,7 +15,6 @@ pub use certificate::{Certificate, Starts, certify};
 pub use drag_axis::{LimitCycle, Switching, limit_cycle};
 pub use error::OrbitError;
 #[cfg(feature = "std")]
-pub use tsypkin::tsypkin_locus;
 #[cfg(feature = "std")]
 pub use two_level::{ListedOrbit, OrbitCertificate, OrbitClaim, OrbitListing, OrbitRefusal, TwoLevelRelay, orbits};
 

@@ -123,11 +123,7 @@ impl Pairs<Interval> {
 impl Criterion {
     /// The spreads of a pair's parameters, and the margin that they give.
     fn measure<T: Real>(&self, (first, second): &(Yaw<T>, Yaw<T>), spread: SpreadMeasure<T>) -> (Yaw<T>, T) {
-        let spreads = Yaw {
-            alpha: spread(first.alpha, second.alpha),
-            beta_r: spread(first.beta_r, second.beta_r),
-            beta_rr: spread(first.beta_rr, second.beta_rr),
-        };
+        let spreads = first.with(*second, spread);
         let margin = T::from_f64(self.spread_share) * spreads.alpha + T::from_f64(self.constant_percent);
         (spreads, margin)
     }

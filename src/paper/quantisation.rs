@@ -49,14 +49,9 @@ pub fn figure14(table: &PrintedTable) -> Vec<Error> {
         let amplitude = row.amplitude.value();
         let sensitivity = amplitude_sensitivity(amplitude / row.switch_level.value());
         let bound = |sensitivity: f64| (sensitivity * COMPASS_STEP_DEG / amplitude * 100.0).abs();
-        let percent = |value: f64, mean: f64| (value / mean - 1.0) * 100.0;
         Error {
             experiment: row.number,
-            percent: Yaw {
-                alpha: percent(parameters.alpha, mean.alpha),
-                beta_r: percent(parameters.beta_r, mean.beta_r),
-                beta_rr: percent(parameters.beta_rr, mean.beta_rr),
-            },
+            percent: parameters.with(mean, |value, mean| (value / mean - 1.0) * 100.0),
             bound_percent: Yaw {
                 alpha: bound(sensitivity.alpha),
                 beta_r: bound(sensitivity.beta),

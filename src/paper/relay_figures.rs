@@ -8,51 +8,32 @@ use crate::nonlinearity::{Branch, Characteristic, RelayHysteresis, Sinusoid};
 pub type Curve = Vec<(f64, f64)>;
 
 const LEVEL: f64 = 1.0;
-const HALF_WIDTH: f64 = 1.0;
+/// The level at which the relay of Figs. 5 and 6 switches.
+pub const HALF_WIDTH: f64 = 1.0;
 const OFFSET: f64 = 0.3;
 
 fn relay() -> Result<RelayHysteresis<f64>, PaperError> {
     Ok(RelayHysteresis::new(LEVEL, HALF_WIDTH, OFFSET)?)
 }
 
-/// Fig. 5: the characteristic of a relay with `C = 1`, `x_a = 1`, `d = 0.3`, while the input rises and while it falls.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Characteristic5 {
-    /// Output while the input rises.
-    pub rising: Curve,
-    /// Output while the input falls.
-    pub falling: Curve,
-}
-
-/// Regenerates Fig. 5.
+/// Regenerates Fig. 5: the output of a relay with `C = 1`, `x_a = 1`, `d = 0.3` while the input rises, and while it falls.
 ///
 /// # Errors
 /// None in practice: the parameters are in their domains.
-pub fn figure5() -> Result<Characteristic5, PaperError> {
+pub fn figure5() -> Result<[Curve; 2], PaperError> {
     let (relay, sweep) = (relay()?, Sinusoid::new(0.0, 2.5 * HALF_WIDTH)?);
-    let branch = |branch| -> Curve {
+    Ok([Branch::Rising, Branch::Falling].map(|branch| {
         let inputs = (-250..=250).map(|i| f64::from(i) / 100.0 * HALF_WIDTH);
         inputs.map(|x| (x, relay.output(x, branch, &sweep))).collect()
-    };
-    Ok(Characteristic5 { rising: branch(Branch::Rising), falling: branch(Branch::Falling) })
+    }))
 }
 
-/// Fig. 6: two periods of a biased sinusoid and of the relay's output, over time in periods.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Response6 {
-    /// The input `0.4 + 2 sin`.
-    pub input: Curve,
-    /// The output: longer at the upper level, as the input's mean is positive.
-    pub output: Curve,
-    /// The switching level x_a.
-    pub half_width: f64,
-}
-
-/// Regenerates Fig. 6.
+/// Regenerates Fig. 6: two periods of the input `0.4 + 2 sin` and of the same relay's output, over time in periods. The output is
+/// longer at the upper level, as the input's mean is positive.
 ///
 /// # Errors
 /// None in practice: the parameters are in their domains.
-pub fn figure6() -> Result<Response6, PaperError> {
+pub fn figure6() -> Result<[Curve; 2], PaperError> {
     let (relay, sweep) = (relay()?, Sinusoid::new(0.4, 2.0)?);
     let times = || (0..=1000).map(|i| f64::from(i) / 500.0);
     let input = |time: f64| sweep.bias() + sweep.amplitude() * libm::sin(core::f64::consts::TAU * time);
@@ -60,11 +41,7 @@ pub fn figure6() -> Result<Response6, PaperError> {
         let rising = libm::cos(core::f64::consts::TAU * time) > 0.0;
         relay.output(input(time), if rising { Branch::Rising } else { Branch::Falling }, &sweep)
     };
-    Ok(Response6 {
-        input: times().map(|time| (time, input(time))).collect(),
-        output: times().map(|time| (time, output(time))).collect(),
-        half_width: relay.half_width(),
-    })
+    Ok([times().map(|time| (time, input(time))).collect(), times().map(|time| (time, output(time))).collect()])
 }
 
 /// Fig. 7: a relay that should switch at 3 sees 2.15 and, a step later, 6.57, and switches there.

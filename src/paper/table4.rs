@@ -34,6 +34,15 @@ impl<T> Yaw<T> {
         }
     }
 
+    /// The same of each parameter with that of another.
+    pub(super) fn with<U, V>(self, other: Yaw<U>, of: impl Fn(T, U) -> V) -> Yaw<V> {
+        Yaw {
+            alpha: of(self.alpha, other.alpha),
+            beta_r: of(self.beta_r, other.beta_r),
+            beta_rr: of(self.beta_rr, other.beta_rr),
+        }
+    }
+
     /// Name, in Table 4, of each parameter with its value.
     #[must_use]
     pub fn named(self) -> [(&'static str, T); 3] {

@@ -46,8 +46,8 @@ impl ProcessPage<'_> {
     }
 
     fn lines_to_type(&self) -> Option<Section> {
-        let table = Table::new("lines", "Type into the controller", &["line"]);
-        let table = self.lines?.lines().fold(table, |table, line| table.row([Cell::Text(line.to_owned())]));
+        let rows = self.lines?.lines().map(|line| [line.into()]);
+        let table = Table::new("lines", "Type into the controller", &["line"]).rows(rows);
         Some(Section { title: "Gains".to_owned(), tables: vec![table], ..Section::default() })
     }
 

@@ -130,6 +130,12 @@ impl Table {
         self
     }
 
+    /// The table with a row for each of these.
+    #[must_use]
+    pub fn rows<R: IntoIterator<Item = Cell>>(self, rows: impl IntoIterator<Item = R>) -> Self {
+        rows.into_iter().fold(self, Self::row)
+    }
+
     /// The table with a sentence below it.
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {

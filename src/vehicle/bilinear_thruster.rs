@@ -7,7 +7,7 @@ use crate::numeric::{Real, Scalar, domain};
 ///
 /// `n` is the rate of revolution, `u_a` the ambient water speed in m/s, positive when the propeller advances into the water
 /// in the direction of positive thrust. Thrust grows with `n` except where the propeller turns with the flow more slowly
-/// than half of [`Self::braking_rate`]; the inverse never answers from there.
+/// than half of `T_nu abs(u_a)/T_nn`, below which it brakes; the inverse never answers from there.
 ///
 /// ```
 /// # use selfosc::vehicle::{BilinearThruster, VehicleError};
@@ -56,17 +56,12 @@ impl<T: Scalar> BilinearThruster<T> {
         bilinear(self.torque, rate, ambient_speed_m_s)
     }
 
-    /// Rate below which a propeller that turns with the flow brakes instead of driving: `T_nu abs(u_a) / T_nn`.
-    pub fn braking_rate(&self, ambient_speed_m_s: T) -> T {
-        self.thrust[1] * ambient_speed_m_s.abs() / self.thrust[0]
-    }
-
     /// The rate that gives a thrust in N, turning in the direction of that thrust; no thrust is rate zero.
     ///
     /// Rounding: for these coefficients and speeds, a largest rate of 64, and thrusts 0.5 to 8 either way, the rate is within 1.8e-14 of the
     /// exact one in f64 and within 9.7e-6 in f32.
     ///
-    /// As thrust vanishes the rate tends to [`Self::braking_rate`] when the flow goes the same way, not to zero.
+    /// As thrust vanishes the rate tends to `T_nu abs(u_a)/T_nn` when the flow goes the same way, not to zero.
     ///
     /// # Errors
     /// [`VehicleError::Saturated`] when the rate would exceed the largest; inputs that are not finite.

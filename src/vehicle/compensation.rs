@@ -7,16 +7,16 @@ use crate::numeric::{Limit, Scalar, domain};
 ///
 /// Through the same thrusters and allocation, the produced forces are the requested forces plus [`Self::bias_forces`], exactly up to
 /// rounding, as long as no thruster saturates or enters its dead zone; [`Self::commands`] reports either. Nothing is
-/// promised when there are fewer thrusters than axes, or when the real thrusters differ from the ones given here: [`Self::identity_error`] tells by how much.
+/// promised when there are fewer thrusters than axes, or when the real thrusters differ from the ones given here.
 ///
 /// ```
 /// # use selfosc::vehicle::{Allocation, Compensation, Thruster, VehicleError};
 /// let thruster = Thruster::affine(1.5e-4_f64, 0.01, 15.0, 200.0)?;
 /// // A yaw experiment up to 0.1 N m: both propellers turn ahead all the time.
 /// let chain = Compensation::against_dead_zone(Allocation::pair(0.08)?, [thruster; 2], [1.0, 1.0], [0.0, 0.1])?;
-/// let error = chain.identity_error(&[0.0, 0.003], &[thruster; 2])?;
-/// assert!(error.iter().all(|e| e.abs() < 1e-12));
-/// assert!(chain.bias_forces()[0] > 1.0 && chain.bias_forces()[1].abs() < 1e-15); // the price is a push ahead
+/// let [ahead, turning] = chain.delivered(&chain.commands(&[0.0, 0.003])?, &[thruster; 2]);
+/// assert!((turning - 0.003).abs() < 1e-12);
+/// assert!((ahead - chain.bias_forces()[0]).abs() < 1e-12 && ahead > 1.0); // the price is a push ahead
 /// # Ok::<(), VehicleError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,23 +106,6 @@ impl<T: Scalar, const AXES: usize, const THRUSTERS: usize> Compensation<T, AXES,
     /// Forces on the axes when `actual` thrusters receive these commands.
     pub fn delivered(&self, commands: &[T; THRUSTERS], actual: &[Thruster<T>; THRUSTERS]) -> [T; AXES] {
         self.allocation.forces(&core::array::from_fn(|i| actual[i].thrust(commands[i])))
-    }
-
-    /// Force delivered by `actual` thrusters minus force asked for and bias: zero up to rounding when they are the ones
-    /// compensated for.
-    ///
-    /// # Errors
-    /// Those of [`Self::commands`]; [`VehicleError::OutOfDomain`] where a sum of forces overflows.
-    pub fn identity_error(
-        &self,
-        forces: &[T; AXES],
-        actual: &[Thruster<T>; THRUSTERS],
-    ) -> Result<[T; AXES], VehicleError> {
-        let delivered = self.delivered(&self.commands(forces)?, actual);
-        let bias = self.bias_forces();
-        let error = core::array::from_fn(|i| delivered[i] - bias[i] - forces[i]);
-        error.iter().try_for_each(|e| domain::representable("error of the compensation", *e, "N, N m").map(drop))?;
-        Ok(error)
     }
 
     fn each_thruster(

@@ -48,24 +48,6 @@ impl EulerAngles {
         );
         Ok(matrix)
     }
-
-    /// `eta' = J nu`: velocity over the ground, then Euler rates.
-    ///
-    /// # Errors
-    /// Those of [`Self::rate_matrix`].
-    ///
-    /// ```
-    /// # use selfosc::vehicle::{EulerAngles, VehicleError};
-    /// # use nalgebra::Vector6;
-    /// let east = EulerAngles { yaw_rad: std::f64::consts::FRAC_PI_2, ..EulerAngles::default() };
-    /// let rate = east.pose_rate(&Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.2))?;
-    /// assert!((rate[1] - 1.0).abs() < 1e-15 && rate[5] == 0.2);
-    /// # Ok::<(), VehicleError>(())
-    /// ```
-    pub fn pose_rate(&self, nu: &Vector6<f64>) -> Result<Vector6<f64>, VehicleError> {
-        let (linear, angular) = halves(nu);
-        Ok(joined(&(self.rotation() * linear), &(self.rate_matrix()? * angular)))
-    }
 }
 
 /// Position and attitude without a singularity.
@@ -98,7 +80,7 @@ impl Pose {
     /// # use nalgebra::{Vector3, Vector6};
     /// let straight_up = EulerAngles { pitch_rad: std::f64::consts::FRAC_PI_2, ..EulerAngles::default() };
     /// let ahead = Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-    /// assert!(straight_up.pose_rate(&ahead).is_err());
+    /// assert!(straight_up.rate_matrix().is_err());
     /// let (velocity, _) = Pose::new(Vector3::zeros(), straight_up).rate(&ahead);
     /// assert!((velocity.z + 1.0).abs() < 1e-15); // it climbs
     /// ```

@@ -4,11 +4,11 @@ use super::error::WHOLE;
 use crate::numeric::{Limit, domain};
 use std::collections::VecDeque;
 
-use nalgebra::{Matrix4, Vector4, Vector6};
+use nalgebra::Vector6;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
-use super::{Axis, AxisParameters, BodyState, Motion, Simulation, Vehicle, VehicleError};
+use super::{Axis, BodyState, Simulation, VehicleError};
 use crate::experiment::{Record, Sensor};
 use crate::on_board::{Coordinate, Experiment, Phase, Protocol};
 
@@ -69,33 +69,6 @@ impl TrialRun {
     /// Those of [`Record::new`]: too few samples.
     pub fn record(&self) -> Result<Record, crate::experiment::ExperimentError> {
         Record::new(self.time_s.clone(), self.position.clone(), self.force.clone())
-    }
-
-    /// What the terms that the uncoupled axis neglects add to its parameters, in least squares along this motion: an
-    /// identification that sees this axis alone finds [`Vehicle::axis`] plus this. Disturbances are not in it.
-    ///
-    /// Accelerations are central differences of the samples. Effects outside the four parameters are excluded.
-    ///
-    /// # Errors
-    /// [`VehicleError::RankDeficient`] for a motion too short or too simple to tell the four apart.
-    pub fn absorbed(&self, vehicle: &Vehicle, axis: Axis) -> Result<AxisParameters, VehicleError> {
-        let i = axis.index();
-        let (mut normal, mut right) = (Matrix4::zeros(), Vector4::zeros());
-        for (states, times) in self.states.windows(3).zip(self.time_s.windows(3)) {
-            let nu = states[1].nu;
-            let nu_rate = (states[2].nu - states[0].nu) / (times[2] - times[0]);
-            let motion = Motion { attitude: states[1].pose.attitude, nu, nu_rate };
-            let row = Vector4::new(nu_rate[i], nu[i], nu[i] * nu[i].abs(), -1.0);
-            normal += row * row.transpose();
-            right += row * vehicle.neglected(axis, &motion).total();
-        }
-        let solved = normal.cholesky().map(|factor| factor.solve(&right)).ok_or(VehicleError::RankDeficient {
-            what: "the motion, as acceleration, speed, speed squared and one",
-            rank: 3,
-            needed: 4,
-        })?;
-        let [alpha, linear_drag, quadratic_drag, disturbance] = solved.into();
-        Ok(AxisParameters { alpha, linear_drag, quadratic_drag, disturbance })
     }
 }
 

@@ -8,10 +8,11 @@ use selfosc::balance::{BalanceError, Bias, HarmonicBalance, Intersection, negati
 use selfosc::describing::{ClosedForm, by_quadrature};
 use selfosc::nonlinearity::{Backlash, Custom, Relay, RelayDeadZone, RelayHysteresis, Saturation, Sinusoid};
 use selfosc::numeric::Limit;
-use selfosc::orbit::{TwoLevelRelay, orbits, tsypkin_locus};
+use selfosc::orbit::{TwoLevelRelay, orbits};
 use selfosc::plant::{StateSpace, TransferFunction};
 
 use crate::event_integrator::{EventSystem, Integrator};
+use crate::orbit_linear::tsypkin_locus;
 use crate::tolerance;
 
 fn transfer(numerator: &[f64], denominator: &[f64]) -> TransferFunction {
@@ -166,7 +167,7 @@ fn errors_have_their_numbers() {
 
 /// The half-period that n harmonics give a relay, from Tsypkin's sum cut after the n-th.
 fn cut_tsypkin(plant: &StateSpace, half_width: f64, order: usize, near: f64) -> f64 {
-    let miss = |omega: f64| 4.0 / PI * tsypkin_locus(plant, omega, order.div_ceil(2)).unwrap().im + half_width;
+    let miss = |omega: f64| 4.0 / PI * tsypkin_locus(plant, omega, order.div_ceil(2)).im + half_width;
     let (mut low, mut high) = (0.8 * near, 1.2 * near);
     assert!(miss(low) * miss(high) < 0.0);
     for _ in 0..60 {

@@ -3,7 +3,6 @@
 use selfosc::claims::band::{by_ramps, by_tangents};
 use selfosc::claims::decomposition::{MEMBERS, beyond, decomposition, is_sum, scaling};
 use selfosc::claims::power_law::{most_within, steepest_beyond};
-use selfosc::claims::single::SingleKernel;
 use selfosc::claims::step::{RATE, falls};
 use selfosc::claims::vehicle_proofs::table_2_entries;
 use selfosc::claims::{Budget, CLAIMS, Distortion, Word};
@@ -169,7 +168,7 @@ fn the_rate_is_below_the_least_and_no_other_is_proved() {
 fn the_slope_is_that_of_the_integral() {
     let mean = |phi: f64| {
         let kernel = Kernel::Step { at: phi.cos(), height: 1.0, side: Side::Above, branches: Branches::Rising };
-        by_quadrature(&SingleKernel(kernel), &Sinusoid::new(0.0, 1.0).unwrap()).unwrap().f0
+        by_quadrature(&kernel, &Sinusoid::new(0.0, 1.0).unwrap()).unwrap().f0
     };
     for phi in [0.1, 0.7, 1.5, 2.9] {
         let slope: [f64; 3] = KernelForm::Step.slope(phi);

@@ -9,7 +9,7 @@ use selfosc::claims::{
 };
 
 /// The claim's verdicts are the stated ones, its false variant is refuted, and so is the statement without each
-/// hypothesis that has a counterexample.
+/// hypothesis.
 fn check(claim: &Claim) {
     let budget = Budget { cases: 200, ..Budget::default() };
     let finding = claim.check(budget);
@@ -27,10 +27,8 @@ fn check(claim: &Claim) {
     let falsified = (claim.falsified)(stream);
     assert!(falsified.is_refuted(), "{}: the false variant is not refuted: {falsified:?}", claim.id);
     for hypothesis in claim.hypotheses {
-        if let Some(counterexample) = hypothesis.counterexample {
-            let verdict = counterexample(stream);
-            assert!(verdict.is_refuted(), "{}: without {}: {verdict:?}", claim.id, hypothesis.id);
-        }
+        let verdict = (hypothesis.counterexample)(stream);
+        assert!(verdict.is_refuted(), "{}: without {}: {verdict:?}", claim.id, hypothesis.id);
     }
 }
 
@@ -60,7 +58,6 @@ fn headers_say_what_the_registry_says() {
             AsPrinted::Absent => "not-applicable",
         };
         let corrected = if claim.corrected.is_some() { "holds" } else { "not-applicable" };
-        let hypotheses: Vec<_> = claim.hypotheses.iter().map(|hypothesis| hypothesis.id).collect();
         assert_eq!(header(claim, "id"), claim.id);
         assert!(!claim.equation().is_empty(), "{}", claim.id);
         assert_eq!(header(claim, "printed"), printed, "{}", claim.id);
@@ -68,16 +65,17 @@ fn headers_say_what_the_registry_says() {
         let domain = claim.domain();
         let parts: Vec<_> = domain.parts.iter().map(|part| part.name.as_ref()).collect();
         assert_eq!(list(header(claim, "domain")), parts, "{}", claim.id);
-        assert_eq!(list(header(claim, "hypotheses")), hypotheses, "{}", claim.id);
+        let hypotheses = list(header(claim, "hypotheses"));
+        assert!(claim.hypotheses.iter().all(|needed| hypotheses.contains(&needed.id)), "{}", claim.id);
     }
 }
 
 #[test]
 fn files_explain_every_hypothesis() {
     for claim in CLAIMS {
-        for hypothesis in claim.hypotheses {
-            assert!(claim.spec.contains(&format!("- `{}`: ", hypothesis.id)), "{}: {}", claim.id, hypothesis.id);
-            let without = format!("without `{}`", hypothesis.id);
+        for hypothesis in list(header(claim, "hypotheses")) {
+            assert!(claim.spec.contains(&format!("- `{hypothesis}`: ")), "{}: {hypothesis}", claim.id);
+            let without = format!("without `{hypothesis}`");
             assert!(claim.spec.contains(&without), "spec/claims/{}.md must say what happens {without}", claim.id);
         }
     }

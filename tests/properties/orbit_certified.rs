@@ -11,7 +11,7 @@ use selfosc::plant::DragAxis;
 use selfosc::proof::inequality::{Inequality, Proof, Refusal};
 use selfosc::proof::margin::VariableBox;
 use selfosc::proof::margin::{Form, Margin};
-use selfosc::proof::{Extent, Gradient, NotProved};
+use selfosc::proof::{Extent, Gradient};
 
 use crate::tolerance::{CENTRAL_DIFFERENCE, ORBIT_ENCLOSURE, REFERENCE, ROUNDING};
 
@@ -54,14 +54,6 @@ fn certificates_that_say_something_else_are_refused() {
     assert_eq!(refused(|c| drop(c.inequalities.pop())), "other-statement");
     for text in ["", "[]", r#"{"format":1}"#, &certificate.to_string().replace("[-1.0,1.0]", "[1.0,-1.0]")] {
         assert!(matches!(text.parse::<Certificate>(), Err(Refusal::Malformed { .. })), "{text}");
-    }
-}
-
-#[test]
-fn no_falsehood_is_proved() {
-    for inequality in CLAIMS.iter().filter_map(Claim::false_inequality) {
-        let found = inequality.prove(BUDGET);
-        assert!(matches!(found, Err(NotProved::Refuted { .. })), "{}: {found:?}", inequality.id);
     }
 }
 

@@ -1,7 +1,6 @@
 //! A held input: the forms that the code chooses from are all the difference of two ramps.
 
 use super::algebra::{exactly, number};
-use super::single::SingleKernel;
 use super::{ClaimPart, Distortion, Verdict};
 use crate::describing::{ClosedForm, DescribingFunction, ramp_by_angle};
 use crate::nonlinearity::{Kernel, Sinusoid};
@@ -12,7 +11,7 @@ const COVERED: ClaimPart = ClaimPart::named("as-coded");
 
 /// Of one kernel.
 fn of(kernel: Kernel<Rational>, sweep: &Sinusoid<Rational>) -> Option<DescribingFunction<Rational>> {
-    SingleKernel(kernel).describing_function(sweep).ok()
+    kernel.describing_function(sweep).ok()
 }
 
 fn band([origin, lower, upper]: [Rational; 3], sweep: &Sinusoid<Rational>) -> Option<DescribingFunction<Rational>> {

@@ -1,9 +1,9 @@
 //! The piecewise-linear catalogue as sums of kernels, and the kernels' describing functions wherever the breakpoint is.
 
 use super::algebra::{exactly, number};
-use super::single::SingleKernel;
+use super::kernels::{BRANCHES, KernelMaker, SIDES, ramp, sign, step};
 use super::{ClaimPart, Distortion, Verdict};
-use crate::describing::{ClosedForm, DescribingFunction};
+use crate::describing::ClosedForm;
 use crate::nonlinearity::{
     Absolute, Backlash, Branch, Branches, Catalogued, DeadZone, DeadZoneSaturation, GainChanging, Kernel,
     PiecewiseLinear, Polyline, Preload, Quantizer, Relay, RelayDeadZone, RelayDeadZoneHysteresis, RelayHysteresis,
@@ -45,7 +45,7 @@ where
             let [bias, amplitude, place] = [at[PARAMETERS], at[PARAMETERS + 1], at[PARAMETERS + 2]];
             let (sweep, x) = (Sinusoid::new(bias, amplitude).ok()?, bias + amplitude * place);
             let mut sum = number(0.0);
-            member.kernels(&sweep, |kernel| sum = sum + SingleKernel(kernel).value(x, branch, &sweep));
+            member.kernels(&sweep, |kernel| sum = sum + kernel.value(x, branch, &sweep));
             Some([member.value(x, branch, &sweep) - factor * sum])
         })
     };
@@ -96,42 +96,29 @@ pub fn decomposition(distortion: Distortion) -> Verdict {
     Verdict::all(MEMBERS.iter().map(both))
 }
 
-/// Kernels with a single breakpoint, of a height or slope.
-type RationalKernel = fn(at: Rational, height: Rational, side: Side, branches: Branches) -> Kernel<Rational>;
-
-const STEP: RationalKernel = |at, height, side, branches| Kernel::Step { at, height, side, branches };
-const RAMP: RationalKernel = |at, slope, side, branches| Kernel::Ramp { at, slope, side, branches };
-const SIGN: RationalKernel = |at, level, _, branches| Kernel::Sign { at, level, branches };
-
-const SIDES: [Side; 2] = [Side::Above, Side::Below];
-const BRANCHES: [Branches; 3] = [Branches::Both, Branches::Rising, Branches::Falling];
-
-fn of(kernel: Kernel<Rational>, bias: Rational, amplitude: Rational) -> Option<DescribingFunction<Rational>> {
-    SingleKernel(kernel).describing_function(&Sinusoid::new(bias, amplitude).ok()?).ok()
-}
-
-/// The three components of the output, that is `[F_0, P X, Q X]`.
-fn output(df: DescribingFunction<Rational>, amplitude: Rational) -> [Rational; 3] {
-    [df.f0, df.p * amplitude, df.q * amplitude]
+/// The three components of a kernel's output, that is `[F_0, P X, Q X]`.
+fn output(kernel: Kernel<Rational>, bias: Rational, amplitude: Rational) -> Option<[Rational; 3]> {
+    let df = kernel.describing_function(&Sinusoid::new(bias, amplitude).ok()?).ok()?;
+    Some([df.f0, df.p * amplitude, df.q * amplitude])
 }
 
 /// Every height, bias and amplitude from a unit kernel on the unit sweep, on the rising branch and above: the falling
 /// branch turns the cosine component round, a kernel below is the kernel above its mirror image with the sine component
 /// turned round, and a kernel on both branches is the sum.
 pub fn scaling(distortion: Distortion) -> Verdict {
-    let one = |make: RationalKernel, side: Side, branches: Branches, is_ramp: bool| {
+    let one = |make: KernelMaker<Rational>, side: Side, branches: Branches| {
         let points = [0.25, -0.25, 0.75, -0.75].map(|u| [u, 0.3, 2.0, 0.7]);
         exactly(SCALING, distortion, &points, |[u, bias, amplitude, height]: [Rational; 4], factor: Rational| {
             let (zero, unit) = (number(0.0), number(1.0));
-            let found = output(of(make(bias + amplitude * u, height, side, branches), bias, amplitude)?, amplitude);
+            let kernel = make(bias + amplitude * u, height, side, branches);
+            let found = output(kernel, bias, amplitude)?;
             // A sign is odd itself.
             let (mirrored, turned) = match side {
                 Side::Above => (u, unit),
                 Side::Below => (-u, -unit),
             };
-            let [mean, sine, cosine] =
-                output(of(make(mirrored, unit, Side::Above, Branches::Rising), zero, unit)?, unit);
-            let size = factor * height * if is_ramp { amplitude } else { unit };
+            let [mean, sine, cosine] = output(make(mirrored, unit, Side::Above, Branches::Rising), zero, unit)?;
+            let size = factor * height * if matches!(kernel, Kernel::Ramp { .. }) { amplitude } else { unit };
             let (both, cosine) = match branches {
                 Branches::Both => (number(2.0), zero),
                 Branches::Rising => (unit, cosine),
@@ -141,48 +128,36 @@ pub fn scaling(distortion: Distortion) -> Verdict {
             Some(core::array::from_fn::<_, 3, _>(|i| found[i] - size * expected[i]))
         })
     };
-    let kernels = SIDES.iter().flat_map(|&side| {
-        BRANCHES.map(|branches| one(STEP, side, branches, false).and(|| one(RAMP, side, branches, true)))
-    });
-    let signs = BRANCHES.map(|branches| one(SIGN, Side::Above, branches, false));
-    Verdict::all(kernels.chain(signs))
+    let kernels = SIDES
+        .iter()
+        .flat_map(|&side| BRANCHES.map(|branches| one(step, side, branches).and(|| one(ramp, side, branches))));
+    Verdict::all(kernels.chain(BRANCHES.map(|branches| one(sign, Side::Above, branches))))
 }
 
 /// With its breakpoint beyond the sweep a kernel is a straight line `c + s x` on each branch that counts, with mean `c + s B`,
 /// sine component `s X` and, on a branch alone, cosine component `4 (c + s B)/pi` of either sign: half of each on a branch.
 pub fn beyond(distortion: Distortion) -> Verdict {
-    let one = |make: RationalKernel, line: fn(Side, bool) -> [f64; 2], side: Side, branches: Branches| {
+    let one = |make: KernelMaker<Rational>, side: Side, branches: Branches| {
         let points = [[4.0, 0.3, 2.0, 0.7], [-4.0, 0.3, 2.0, 0.7]];
         exactly(BEYOND, distortion, &points, |[at, bias, amplitude, height]: [Rational; 4], factor: Rational| {
-            let found = output(of(make(at, height, side, branches), bias, amplitude)?, amplitude);
-            // Every input lies above the breakpoint or below it.
-            let [constant, slope] = line(side, bias > at).map(number);
-            let (mean, sine) = (height * (constant + slope * (bias - at)), height * slope * amplitude);
-            let (share, side) = match branches {
-                Branches::Both => (number(1.0), number(0.0)),
-                Branches::Rising => (number(0.5), number(1.0)),
-                Branches::Falling => (number(0.5), number(-1.0)),
+            let kernel = make(at, height, side, branches);
+            let found = output(kernel, bias, amplitude)?;
+            let (share, turned, branch) = match branches {
+                Branches::Both => (number(1.0), number(0.0), Branch::Rising),
+                Branches::Rising => (number(0.5), number(1.0), Branch::Rising),
+                Branches::Falling => (number(0.5), number(-1.0), Branch::Falling),
             };
-            let expected = [share * mean, share * sine, side * number(2.0) * mean / Rational::pi()];
+            let sweep = Sinusoid::new(bias, amplitude).ok()?;
+            let mean = kernel.value(bias, branch, &sweep);
+            let sine = kernel.value(bias + amplitude, branch, &sweep) - mean;
+            let expected = [share * mean, share * sine, turned * number(2.0) * mean / Rational::pi()];
             Some(core::array::from_fn::<_, 3, _>(|i| found[i] - factor * expected[i]))
         })
     };
-    const fn reached(side: Side, above: bool) -> bool {
-        matches!((side, above), (Side::Above, true) | (Side::Below, false))
-    }
-    let step = |side, above| [f64::from(u8::from(reached(side, above))), 0.0];
-    let ramp = |side, above| match (reached(side, above), side) {
-        (false, _) => [0.0, 0.0],
-        (true, Side::Above) => [0.0, 1.0],
-        (true, Side::Below) => [0.0, -1.0],
-    };
-    let sign = |_, above| [if above { 1.0 } else { -1.0 }, 0.0];
     let all = SIDES.iter().flat_map(|&side| {
-        BRANCHES.map(|branches| {
-            one(STEP, step, side, branches)
-                .and(|| one(RAMP, ramp, side, branches))
-                .and(|| one(SIGN, sign, side, branches))
-        })
+        BRANCHES
+            .iter()
+            .flat_map(move |&branches| [step as KernelMaker<_>, ramp, sign].map(|make| one(make, side, branches)))
     });
     Verdict::all(all)
 }

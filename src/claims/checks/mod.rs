@@ -11,12 +11,10 @@ pub mod band;
 pub mod decomposition;
 mod family;
 mod machine;
-pub mod single;
 pub mod step;
 pub mod vehicle_proofs;
 
 pub(super) use algebra::exactly;
-pub(super) use single::SingleKernel;
 
 pub(super) mod autotune;
 pub(super) mod bounded;

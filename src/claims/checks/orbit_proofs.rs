@@ -71,7 +71,7 @@ fn excess_of_the_wrong_sign<T: Real>([mu, upper, lower]: [T; VARIABLES]) -> T {
 }
 
 /// Negative drag, which feeds the motion.
-pub(super) const FALSE_DRAG: Inequality = Inequality {
+const FALSE_DRAG: Inequality = Inequality {
     id: "false-drag",
     statement: "the map contracts with drag of the wrong sign",
     margin: Margin::Slope { of: formula!(excess_of_the_wrong_sign), by: 1 },
@@ -117,7 +117,7 @@ fn beyond_the_level(draw: &mut Draw) -> Option<Case> {
 }
 
 const BELOW_LEVEL: Hypothesis =
-    Hypothesis { id: "disturbance-below-level", counterexample: Some(drawn!(beyond_the_level())) };
+    Hypothesis { id: "disturbance-below-level", counterexample: drawn!(beyond_the_level()) };
 
 /// Claims that inequalities establish: theorem, false inequality, parts of the domain, further proofs, hypotheses.
 macro_rules! enclosed {
@@ -127,7 +127,7 @@ macro_rules! enclosed {
             claim! {
                 $constant = $id Theorem $statement {
                     corrected: Some(|_| proved(&$theorem, const { $parts })$(.and(|| $more))?),
-                    theorem: Some((&$theorem, &$false)),
+                    theorem: Some(&$theorem),
                     falsified: |_| single(&$false),
                     hypotheses: $hypotheses,
                 }

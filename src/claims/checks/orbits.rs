@@ -2,7 +2,7 @@
 
 use super::algebra::{exactly, number};
 use super::family::cycle;
-use super::orbit_proofs::{FALSE_DRAG, proved};
+use super::orbit_proofs::proved;
 use super::{Case, ClaimPart, Distortion, Draw, Verdict, claim, tolerance};
 use crate::balance::HarmonicBalance;
 use crate::describing::ClosedForm;
@@ -73,7 +73,7 @@ claim! {
     false closed_form_orbit(|l| quadratic_orbit(l, 2.0), &QUADRATIC);
     needs "drag-positive" no_cycle(0.0, 0.2);
     needs "half-width-positive" no_cycle(1.0, 0.0);
-    theorem (&theorem::QUADRATIC, &FALSE_DRAG);
+    theorem &theorem::QUADRATIC;
 }
 
 /// Amplitude and period from `E = exp(-swing g)`.
@@ -93,7 +93,7 @@ claim! {
     false closed_form_orbit(|l| linear_orbit(l, 2.0), &LINEAR);
     needs "drag-positive" no_cycle(0.0, 0.2);
     needs "half-width-positive" no_cycle(1.0, 0.0);
-    theorem (&theorem::LINEAR, &FALSE_DRAG);
+    theorem &theorem::LINEAR;
 }
 
 /// Amplitude and period from `z - tanh z = g`, solved by bisection in z.

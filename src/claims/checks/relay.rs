@@ -66,7 +66,6 @@ claim! {
     "P of a relay with hysteresis is (2C/(pi X)) [sqrt(1 - ((x_a - x_0)/X)^2) + sqrt(1 - ((x_a + x_0)/X)^2)]";
     printed Holds formula(|df| df.p, |s| in_phase(s, s.bias), true);
     false formula(|df| df.p, |s| in_phase(s, 0.0), true);
-    states "switches-both-ways";
     proof |distortion| {
         let term = |u| number(2.0) / Rational::pi() * root(u);
         prove_printed(distortion, term, |width, bias| term(width - bias) + term(width + bias), |df| df.p)
@@ -84,7 +83,6 @@ claim! {
     printed Holds mean_output(1.0);
     // The times exchanged: the sign error that reading T_H as the time at command +C makes.
     false mean_output(-1.0);
-    states "switches-both-ways";
     proof prove_relay_f0;
 }
 

@@ -119,7 +119,6 @@ claim! {
     needs "integrating" symmetric(&LaggedLoop { integrating: false, offset: false });
     needs "odd" symmetric(&LaggedLoop { integrating: true, offset: true });
     needs "nondecreasing" odd_and_astatic_without_bias();
-    states "not-zero-inside-sweep";
     proof prove_theorem_2;
 }
 

@@ -74,7 +74,6 @@ claim! {
     "On one tone with linear drag, alpha = P/w^2 and beta = -Q/w give the parameters back";
     printed Holds gives_back(|tone| tone.quadratic = 0.0, |p| p.beta, |t| t.linear);
     false gives_back(|_| {}, |p| p.beta, |t| t.linear);
-    states "one-tone";
     proof |distortion| prove_gives_back(distortion, false, |found| found.beta);
 }
 
@@ -83,7 +82,6 @@ claim! {
     "On one tone with quadratic drag, alpha = P/w^2 and beta_xx = -(3 pi/8) Q/(X w^2) give the parameters back";
     printed Holds gives_back(|tone| tone.linear = 0.0, |p| p.beta_quadratic, |t| t.quadratic);
     false gives_back(|_| {}, |p| p.beta_quadratic, |t| t.quadratic);
-    states "one-tone";
     proof |distortion| prove_gives_back(distortion, true, |found| found.beta_quadratic);
 }
 

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// A variable of a box, between two ends. In a claim an end may be open or infinite; the domain of a proof is closed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -13,15 +13,11 @@ pub struct ClaimVariable {
     /// Unit; 1 for a pure number.
     pub unit: Cow<'static, str>,
     /// Lower end; in JSON null stands for minus infinity.
-    #[serde(serialize_with = "finite", deserialize_with = "lower_end")]
+    #[serde(deserialize_with = "lower_end")]
     pub from: f64,
     /// Upper end; in JSON null stands for infinity.
-    #[serde(serialize_with = "finite", deserialize_with = "upper_end")]
+    #[serde(deserialize_with = "upper_end")]
     pub to: f64,
-}
-
-fn finite<S: Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
-    value.is_finite().then_some(*value).serialize(to)
 }
 
 fn lower_end<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {

@@ -3,31 +3,20 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// A case that refutes, as numbers that a reader can put in again.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Witness {
     /// Names and values, SI units unless the name has a unit. A value that is no number is null in JSON.
-    #[serde(with = "numbers")]
+    #[serde(deserialize_with = "numbers")]
     pub numbers: Vec<(Cow<'static, str>, f64)>,
 }
 
 /// A number that JSON cannot hold is null, and comes back as no number.
-mod numbers {
-    use std::borrow::Cow;
-
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    type Named<T> = (Cow<'static, str>, T);
-
-    pub(super) fn serialize<S: Serializer>(numbers: &[Named<f64>], to: S) -> Result<S::Ok, S::Error> {
-        to.collect_seq(numbers.iter().map(|(name, value)| (name, value.is_finite().then_some(value))))
-    }
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Named<f64>>, D::Error> {
-        let numbers = Vec::<Named<Option<f64>>>::deserialize(from)?;
-        Ok(numbers.into_iter().map(|(name, value)| (name, value.unwrap_or(f64::NAN))).collect())
-    }
+fn numbers<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(Cow<'static, str>, f64)>, D::Error> {
+    let numbers = Vec::<(_, Option<f64>)>::deserialize(from)?;
+    Ok(numbers.into_iter().map(|(name, value)| (name, value.unwrap_or(f64::NAN))).collect())
 }
 
 impl Witness {

@@ -1,7 +1,7 @@
 //! Guaranteed bounds as tables and sentences.
 
 use super::tables::cell;
-use crate::identify::bounded::{Bounds, Consistency, DelayBound, Outlier, Quantity};
+use crate::identify::bounded::{Bounds, Consistency, DelayBound, Outlier, Quantity, QuantityRange};
 use crate::identify::{Guaranteed, Identification};
 use crate::report::{Cell, Table};
 
@@ -25,53 +25,43 @@ fn name(found: &Identification, quantity: Quantity) -> Cell {
 
 fn bounds_table(found: &Identification, bounds: &Bounds) -> Table {
     let table = Table::new("bounds", "Guaranteed bounds", &["parameter", "at least", "at most", "witness"]);
-    bounds.bounds.iter().fold(table, |table, range| {
+    table.rows(bounds.bounds.iter().map(|range| {
         let values = bounds.witness.iter().flat_map(|witness| &witness.values);
         let witness = values.filter(|(quantity, _)| *quantity == range.quantity).map(|(_, value)| cell(*value)).next();
-        table.row([name(found, range.quantity), cell(range.low), cell(range.high), witness.unwrap_or(Cell::Missing)])
-    })
+        [name(found, range.quantity), cell(range.low), cell(range.high), witness.unwrap_or(Cell::Missing)]
+    }))
 }
 
 fn search_table(found: &Identification, bounds: &Bounds) -> Table {
-    let table = Table::new("search", "Where parameters were looked for", &["quantity", "from", "to"]);
-    bounds
-        .search_box
-        .iter()
-        .fold(table, |table, range| table.row([name(found, range.quantity), cell(range.low), cell(range.high)]))
+    let row = |range: &QuantityRange| [name(found, range.quantity), cell(range.low), cell(range.high)];
+    Table::new("search", "Where parameters were looked for", &["quantity", "from", "to"])
+        .rows(bounds.search_box.iter().map(row))
 }
 
 fn contradiction_table(found: &Identification, bounds: &Bounds) -> Table {
     let columns = ["record", "time (s)", "reading", "the model is", "share (%)"];
-    let table = Table::new("contradiction", "Readings that contradict each other", &columns);
-    let table = bounds.contradicting.iter().fold(table, |table, part| {
-        let source = &found.sources()[part.record];
-        let record = &source.log.record;
+    let rows = bounds.contradicting.iter().map(|part| {
+        let [record, time, reading] = sample_cells(found, part.record, part.sample);
         let side = if part.model_above { "not above" } else { "not below" };
-        table.row([
-            source.name.as_str().into(),
-            Cell::number(record.time_s()[part.sample], 3),
-            cell(record.output()[part.sample]),
-            side.into(),
-            Cell::number(100.0 * part.share, 1),
-        ])
+        [record, time, reading, side.into(), Cell::number(100.0 * part.share, 1)]
     });
-    table.note(
+    Table::new("contradiction", "Readings that contradict each other", &columns).rows(rows).note(
         "No motion of the model stays within these bounds of these readings at once, in the part of the search box that was \
          excluded last; the share is each bound's weight in the proof.",
     )
 }
 
 fn outlier_table(found: &Identification, bounds: &Bounds) -> Table {
-    let table = Table::new(
-        "outliers",
-        "Outliers: readings missed by every parameter that is left",
-        &["record", "time (s)", "reading"],
-    );
-    bounds.outliers.iter().fold(table, |table, Outlier { record, sample }| {
-        let source = &found.sources()[*record];
-        let (time_s, output) = (source.log.record.time_s(), source.log.record.output());
-        table.row([source.name.as_str().into(), Cell::number(time_s[*sample], 3), cell(output[*sample])])
-    })
+    let title = "Outliers: readings missed by every parameter that is left";
+    let row = |&Outlier { record, sample }: &Outlier| sample_cells(found, record, sample);
+    Table::new("outliers", title, &["record", "time (s)", "reading"]).rows(bounds.outliers.iter().map(row))
+}
+
+/// A reading: its record, time and value.
+fn sample_cells(found: &Identification, record: usize, sample: usize) -> [Cell; 3] {
+    let source = &found.sources()[record];
+    let (time_s, output) = (source.log.record.time_s()[sample], source.log.record.output()[sample]);
+    [source.name.as_str().into(), Cell::number(time_s, 3), cell(output)]
 }
 
 /// So many readings, in words.

@@ -102,7 +102,7 @@ pub(super) fn cycle_table(source: &Source) -> Option<Table> {
     ];
     let table = Table::new("cycles", "Cycles", &columns);
     let start_up = found.features.start_up_cycles as usize;
-    Some(found.cycles.iter().enumerate().fold(table, |table, (number, cycle)| {
+    Some(table.rows(found.cycles.iter().enumerate().map(|(number, cycle)| {
         let numbers = [
             cycle.begin_s,
             cycle.period_s,
@@ -113,8 +113,8 @@ pub(super) fn cycle_table(source: &Source) -> Option<Table> {
             cycle.amplitude(),
             cycle.switch_level(),
         ];
-        table.row(numbers.map(cell).into_iter().chain([Cell::Flag(number >= start_up)]))
-    }))
+        numbers.map(cell).into_iter().chain([Cell::Flag(number >= start_up)])
+    })))
 }
 
 /// The inertia, the trust, the drag law, the units and what to do next, a sentence each.
@@ -172,12 +172,11 @@ fn budget_table(reported: &Reported) -> Option<Table> {
     let columns = ["source", "size", "unit", "of alpha (%)", "what lowers it"];
     let table = Table::new("budget", "Errors that no residual shows, the largest first", &columns);
     let rows = reported.budget.iter().take(SHOWN_SOURCES);
-    let row = |table: Table, entry: &BudgetEntry| {
-        let texts = [&entry.source, &entry.unit, &entry.remedy].map(|text| Cell::from(text.as_ref()));
-        let [source, unit, remedy] = texts;
-        table.row([source, Cell::Text(significant(entry.size, 2)), unit, Cell::number(entry.share_percent, 2), remedy])
+    let row = |entry: &BudgetEntry| {
+        let [source, unit, remedy] = [&entry.source, &entry.unit, &entry.remedy].map(|text| Cell::from(text.as_ref()));
+        [source, Cell::Text(significant(entry.size, 2)), unit, Cell::number(entry.share_percent, 2), remedy]
     };
-    (!reported.budget.is_empty()).then(|| rows.fold(table, row))
+    (!reported.budget.is_empty()).then(|| table.rows(rows.map(row)))
 }
 
 /// Stated once: the scale that no record shows.
@@ -325,29 +324,23 @@ fn prediction_table(found: &Identification) -> Option<Table> {
     let rows: Vec<_> = left_out.chain(validated).collect();
     let table = Table::new("predictions", "Records predicted", &columns);
     (!rows.is_empty()).then(|| {
-        rows.into_iter().fold(table, |table, (name, from, predicted)| {
-            let Prediction { fit_percent, rms, disturbance } = predicted;
-            table.row([name.as_str().into(), from.into(), Cell::number(fit_percent, 2), cell(rms), cell(disturbance)])
-        })
+        table.rows(rows.into_iter().map(|(name, from, Prediction { fit_percent, rms, disturbance })| {
+            [name.as_str().into(), from.into(), Cell::number(fit_percent, 2), cell(rms), cell(disturbance)]
+        }))
     })
 }
 
 /// What was refused, by whom and why.
 pub(super) fn refused_table(found: &Identification) -> Option<Table> {
     let table = Table::new("refused", "Methods without a model", &["method", "name", "reason"]);
-    let row = |table: Table, method: &str, code: &str, text: &str| table.row([method.into(), code.into(), text.into()]);
-    let refused = found.refused();
-    (!refused.is_empty())
-        .then(|| refused.iter().fold(table, |table, one| row(table, &one.method, &one.code, &one.text)))
+    let rows = found.refused().iter().map(|one| [&*one.method, &*one.code, &*one.text].map(Cell::from));
+    (!found.refused().is_empty()).then(|| table.rows(rows))
 }
 
 pub(super) fn caution_table(name: &'static str, title: &str, cautions: &[Caution]) -> Option<Table> {
     let table = Table::new(name, title, &["name", "meaning"]);
-    (!cautions.is_empty()).then(|| {
-        cautions
-            .iter()
-            .fold(table, |table, caution| table.row([caution.code.as_ref().into(), caution.text.as_str().into()]))
-    })
+    let rows = cautions.iter().map(|caution| [caution.code.as_ref().into(), caution.text.as_str().into()]);
+    (!cautions.is_empty()).then(|| table.rows(rows))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::Reproduction;
 use crate::paper::figure15::Counts;
 use crate::paper::quantisation::{CurvePoint, Error, curves, figure14};
-use crate::paper::relay_figures::{self, Characteristic5, LateSwitching7, Response6};
+use crate::paper::relay_figures::{self, HALF_WIDTH, LateSwitching7};
 use crate::paper::response_figures::{self, Response};
 use crate::paper::thruster_figure;
 use crate::report::{Figure, Mark, Panel, ReportError};
@@ -24,7 +24,7 @@ pub(super) fn quantisation() -> Figure {
 }
 
 pub(super) fn figure5() -> Result<Figure, ReportError> {
-    let Characteristic5 { rising, falling } = relay_figures::figure5()?;
+    let [rising, falling] = relay_figures::figure5()?;
     let panel = Panel::new("relay input e (units of x_a)", "relay output u (units of C)")
         .with("e rising", Mark::Line, rising)
         .with("e falling", Mark::Dashed, falling);
@@ -34,13 +34,13 @@ pub(super) fn figure5() -> Result<Figure, ReportError> {
 }
 
 pub(super) fn figure6() -> Result<Figure, ReportError> {
-    let Response6 { input, output, half_width } = relay_figures::figure6()?;
+    let [input, output] = relay_figures::figure6()?;
     let level = |value: f64| [(0.0, value), (2.0, value)];
     let panel = Panel::new("time (periods)", "input (units of x_a), output (units of C)")
         .with("input e", Mark::Line, input)
         .with("output u", Mark::Line, output)
-        .with("switching levels", Mark::Dashed, level(half_width))
-        .with("", Mark::Dashed, level(-half_width));
+        .with("switching levels", Mark::Dashed, level(HALF_WIDTH))
+        .with("", Mark::Dashed, level(-HALF_WIDTH));
     let caption =
         "The output jumps where the input passes a dashed level. The bias makes the upper output last longer.";
     Ok(Figure { name: "fig6", title: "Relay under a biased sinusoid".to_owned(), caption, panels: vec![panel] })

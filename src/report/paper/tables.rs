@@ -35,37 +35,33 @@ const SYMBOLS: [[[&str; 4]; 8]; 2] = [[
 ]];
 
 pub(super) fn symbols(name: &'static str, of: usize) -> Table {
-    let table = Table::new(name, "Symbols", &["symbol", "meaning", "unit"]);
-    SYMBOLS[of].into_iter().fold(table, |table, [text, latex, meaning, unit]| {
-        table.row([Expression::symbol(text, latex, Interval::ENTIRE).into(), meaning.into(), unit.into()])
-    })
+    let row = |[text, latex, meaning, unit]: [&'static str; 4]| {
+        [Expression::symbol(text, latex, Interval::ENTIRE).into(), meaning.into(), unit.into()]
+    };
+    Table::new(name, "Symbols", &["symbol", "meaning", "unit"]).rows(SYMBOLS[of].map(row))
 }
 
 pub(super) fn table2() -> Table {
     let columns = ["axis", "inertia alpha", "drag -beta(nu)", "disturbance delta"];
-    let table = Table::new("table2", "Uncoupled axes (eq. 6)", &columns);
-    table2::formulas().into_iter().fold(table, |table, (axis, terms)| {
+    let rows = table2::formulas().into_iter().map(|(axis, terms)| {
         let name = format!("{axis:?}").to_lowercase();
-        table.row([Cell::Text(name), terms.alpha.into(), terms.minus_beta.into(), terms.delta.into()])
-    })
+        [Cell::Text(name), terms.alpha.into(), terms.minus_beta.into(), terms.delta.into()]
+    });
+    Table::new("table2", "Uncoupled axes (eq. 6)", &columns).rows(rows)
+}
+
+/// The row of an experiment.
+fn numbered(experiment: u32, values: impl IntoIterator<Item = f64>) -> impl Iterator<Item = Cell> {
+    [Cell::count(experiment as usize)].into_iter().chain(values.into_iter().map(|value| Cell::number(value, 2)))
 }
 
 pub(super) fn quantisation() -> Table {
     let columns = ["amplitude X_m/x_a", "inertia (% per %)", "linear drag (% per %)", "quadratic drag (% per %)"];
-    curves().into_iter().fold(
-        Table::new("quantisation", "Error per error of the amplitude", &columns),
-        |table, point| {
-            table.row(
-                [
-                    point.amplitude_ratio,
-                    point.sensitivity.alpha,
-                    point.sensitivity.beta,
-                    point.sensitivity.beta_quadratic,
-                ]
-                .map(|value| Cell::number(value, 3)),
-            )
-        },
-    )
+    let rows = curves().into_iter().map(|point| {
+        let s = point.sensitivity;
+        [point.amplitude_ratio, s.alpha, s.beta, s.beta_quadratic].map(|value| Cell::number(value, 3))
+    });
+    Table::new("quantisation", "Error per error of the amplitude", &columns).rows(rows)
 }
 
 impl Reproduction {
@@ -83,9 +79,9 @@ impl Reproduction {
             [p.alpha, p.beta, p.beta_quadratic, p.disturbance, table.disturbance_from_times]
         };
         let formulas = |name, title, delayed| -> Result<Table, ReportError> {
-            let table = Table::new(name, title, &["parameter", "unit", "formula"]);
             let rows = quantities.into_iter().zip(listed(&table3::formulas(delayed)?));
-            Ok(rows.fold(table, |table, ((name, unit), formula)| table.row([name.into(), unit.into(), formula.into()])))
+            let rows = rows.map(|((name, unit), formula)| [name.into(), unit.into(), formula.into()]);
+            Ok(Table::new(name, title, &["parameter", "unit", "formula"]).rows(rows))
         };
         Ok(vec![
             formulas("table3", "Formulas without delay", false)?,
@@ -126,41 +122,33 @@ impl Reproduction {
              to the relay level, the constant that fits best; it leaves {:.2} %.",
             self.table4.level_offset, self.table4.level_offset_residual_percent,
         ));
-        self.table4.rows.iter().fold(table, |table, row| {
+        table.rows(self.table4.rows.iter().map(|row| {
             let (new, old) = (row.recomputed, row.printed);
             let values = [new.alpha, old.alpha, row.alpha_raised, new.beta_r, old.beta_r, new.beta_rr, old.beta_rr];
-            table.row(
-                [Cell::count(row.experiment as usize)].into_iter().chain(values.map(|value| Cell::number(value, 2))),
-            )
-        })
+            numbered(row.experiment, values)
+        }))
     }
 
     pub(super) fn figure14_table(&self) -> Table {
         let columns =
             ["experiment", "inertia", "its bound", "linear drag", "bound of it", "quadratic drag", "bound of that"];
         let table = Table::new("fig14", "Relative errors and their bounds by quantisation (%)", &columns);
-        figure14(&self.printed).into_iter().fold(table, |table, error| {
+        table.rows(figure14(&self.printed).into_iter().map(|error| {
             let pairs = error.percent.named().into_iter().zip(error.bound_percent.named());
-            let values = pairs.flat_map(|((_, percent), (_, bound))| [percent, bound]);
-            table.row(
-                [Cell::count(error.experiment as usize)].into_iter().chain(values.map(|value| Cell::number(value, 2))),
-            )
-        })
+            numbered(error.experiment, pairs.flat_map(|((_, percent), (_, bound))| [percent, bound]))
+        }))
     }
 
     pub(super) fn figure15_table(&self) -> Table {
         let title = "Fig. 15: the drag law from pairs of experiments with different relay levels";
         let table = Table::new("fig15", title, &["criterion", "margin", "pairs", "correct", "wrong", "undecided"]);
-        self.figure15.iter().zip(&CRITERIA).fold(table, |table, (counts, criterion)| {
-            let numbers = [counts.correct, counts.wrong, counts.undecided];
-            let total: u32 = numbers.iter().sum();
-            let margin = Cell::from(criterion.margin);
-            table.row(
-                [Cell::count(counts.criterion as usize), margin, Cell::count(total as usize)]
-                    .into_iter()
-                    .chain(numbers.map(|number| Cell::count(number as usize))),
-            )
-        })
+        table.rows(self.figure15.iter().zip(&CRITERIA).map(|(counts, criterion)| {
+            let (correct, wrong, undecided) = (counts.correct, counts.wrong, counts.undecided);
+            let [number, all, correct, wrong, undecided] =
+                [counts.criterion, correct + wrong + undecided, correct, wrong, undecided]
+                    .map(|number| Cell::count(number as usize));
+            [number, criterion.margin.into(), all, correct, wrong, undecided]
+        }))
     }
 
     pub(super) fn joint_table(&self) -> Table {
@@ -172,28 +160,27 @@ impl Reproduction {
             let shown = half.map_or_else(String::new, |half| format!(" \u{b1} {half:.decimals$}"));
             Cell::from(format!("{value:.decimals$}{shown}").as_str())
         };
-        self.joint.iter().fold(table, |table, row| {
-            let drag =
-                |value: Option<f64>, interval| value.map_or(Cell::Missing, |value| with_error(value, interval, 2));
-            table.row([
+        let drag = |value: Option<f64>, interval| value.map_or(Cell::Missing, |value| with_error(value, interval, 2));
+        table.rows(self.joint.iter().map(|row| {
+            [
                 row.drag.into(),
                 with_error(row.delay_s, row.delay_interval_s, 2),
                 with_error(row.alpha, row.alpha_interval, 2),
                 drag(row.beta, row.beta_interval),
                 drag(row.beta_quadratic, row.beta_quadratic_interval),
                 Cell::number(100.0 * row.residual_rms, 1),
-            ])
-        })
+            ]
+        }))
     }
 
     pub(super) fn audit_summary(&self) -> Table {
         let columns = ["printed quantity", "agree", "of", "off by", "reason"];
         let table = Table::new("audit", "Audit: printed numbers that meet their recomputation in intervals", &columns);
-        self.audit.iter().fold(table, |table, group| {
+        table.rows(self.audit.iter().map(|group| {
             let (agree, of) = (Cell::count(group.agreeing()), Cell::count(group.items.len()));
             let difference = Cell::number(group.largest_difference(), 2);
-            table.row([group.name.as_str().into(), agree, of, difference, group.note.as_str().into()])
-        })
+            [group.name.as_str().into(), agree, of, difference, group.note.as_str().into()]
+        }))
     }
 
     pub(super) fn consistency_table(&self) -> Table {

@@ -572,7 +572,6 @@ fn thrusters<T: Scalar>(probe: &mut Probe) {
         }
         probe.formula("BilinearThruster::thrust", &[moving.thrust(wanted, speed)], &said);
         probe.formula("BilinearThruster::torque", &[moving.torque(wanted, speed)], &said);
-        probe.formula("BilinearThruster::braking_rate", &[moving.braking_rate(speed)], &said);
     }
 }
 
@@ -613,10 +612,6 @@ fn allocation<T: Scalar>(probe: &mut Probe) {
         if let Some(commands) = probe.result("Compensation::commands_clamped", compensation.commands_clamped(&forces)) {
             probe.note("Compensation::commands_clamped", &commands, within(&commands), &said);
             probe.formula("Compensation::delivered", &compensation.delivered(&commands, &actual), &said);
-        }
-        if let Some(error) = probe.result("Compensation::identity_error", compensation.identity_error(&forces, &actual))
-        {
-            probe.note("Compensation::identity_error", &error, true, &said);
         }
     }
 }

@@ -34,18 +34,22 @@ fn rate_by_angles(angles: &EulerAngles, rates: &Vector3<f64>) -> Vector4<f64> {
     (at(H) - at(-H)) / (2.0 * H)
 }
 
+/// Eq. 4: velocity over the ground, and Euler rates.
+fn pose_rate(angles: &EulerAngles, nu: &Vector6<f64>) -> Result<[Vector3<f64>; 2], VehicleError> {
+    let [linear, angular] = [0, 3].map(|from| nu.fixed_rows::<3>(from).into_owned());
+    Ok([angles.rotation() * linear, angles.rate_matrix()? * angular])
+}
+
 proptest! {
     #![proptest_config(crate::sampling::recorded(256))]
 
     #[test]
     fn both_forms_agree(angles in angles(), nu in vector6(2.0)) {
         let pose = Pose::new(Vector3::new(1.0, 2.0, 3.0), angles);
-        let by_angles = angles.pose_rate(&nu).unwrap();
+        let [linear, rates] = pose_rate(&angles, &nu).unwrap();
         let (velocity, spin) = pose.rate(&nu);
-        let linear = by_angles.fixed_rows::<3>(0).into_owned();
         prop_assert!((linear - velocity).amax() < VEHICLE_ALGEBRA);
         prop_assert!((linear - turns(&angles) * nu.fixed_rows::<3>(0)).amax() < VEHICLE_ALGEBRA);
-        let rates = by_angles.fixed_rows::<3>(3).into_owned();
         let scale = 1.0 + rates.norm().powi(3);
         prop_assert!((rate_by_angles(&angles, &rates) - spin).amax() < QUATERNION_RATE * scale);
         // The quaternion stays of unit length.
@@ -61,7 +65,7 @@ proptest! {
         let pitch_rad = std::f64::consts::FRAC_PI_2.copysign(if up { 1.0 } else { -1.0 }) + offset;
         let steep = EulerAngles { pitch_rad, ..angles };
         let limit = EulerAngles::LEAST_COS_PITCH;
-        prop_assert_eq!(steep.pose_rate(&nu).unwrap_err(), VehicleError::PitchSingular { pitch_rad, limit });
+        prop_assert_eq!(steep.rate_matrix().unwrap_err(), VehicleError::PitchSingular { pitch_rad, limit });
         let (velocity, spin) = Pose::new(Vector3::zeros(), steep).rate(&nu);
         // Speeds over the ground are those over the body, spin is half the angular speed.
         prop_assert!((velocity.norm() - nu.fixed_rows::<3>(0).norm()).abs() < VEHICLE_ALGEBRA);
@@ -82,6 +86,6 @@ proptest! {
 #[test]
 fn angles_that_are_no_numbers_are_refused() {
     let broken = EulerAngles { yaw_rad: f64::NAN, ..EulerAngles::default() };
-    assert!(matches!(broken.pose_rate(&Vector6::zeros()), Err(VehicleError::OutOfDomain { .. })));
+    assert!(matches!(broken.rate_matrix(), Err(VehicleError::OutOfDomain { .. })));
     assert_eq!(Pose::new(Vector3::zeros(), EulerAngles::default()).attitude, UnitQuaternion::identity());
 }

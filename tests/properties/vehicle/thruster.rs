@@ -132,7 +132,7 @@ proptest! {
         prop_assert!((eq_1(rate) - thrust).abs() < THRUST_ROUND_TRIP * scale);
         prop_assert!(rate * thrust > 0.0);
         let with_flow = rate * speed > 0.0;
-        prop_assert!(!with_flow || rate.abs() >= propeller.braking_rate(speed) * (1.0 - 1e-12));
+        prop_assert!(!with_flow || rate.abs() >= by_speed * speed.abs() / by_rate * (1.0 - 1e-12));
         // False variant: still water assumed.
         let still = (thrust.abs() / by_rate).sqrt().copysign(thrust);
         prop_assert!((eq_1(still) - thrust).abs() > THRUST_ROUND_TRIP * scale || (by_speed * speed).abs() < 1e-9);
@@ -143,7 +143,7 @@ proptest! {
         by_speed in 0.0..1.0_f64, speed in -2.0..2.0_f64, rate in -40.0..40.0_f64,
     ) {
         let propeller = BilinearThruster::new((0.1, by_speed), (0.2, by_speed), 40.0).unwrap();
-        prop_assume!(rate.abs() > 0.1 + propeller.braking_rate(speed));
+        prop_assume!(rate.abs() > 0.1 + by_speed * speed.abs() / 0.1);
         let back = propeller.rate(propeller.thrust(rate, speed), speed).unwrap();
         prop_assert!((back - rate).abs() < COMMAND_ROUND_TRIP * 40.0);
         let torque = 0.2 * rate.abs() * rate - by_speed * rate.abs() * speed;
