@@ -139,3 +139,9 @@ locked cycles
 locked cycles, delay unknown
 wrapped heading
 KINDS
+
+# Practical intervals, and the coverage by linear drag and length
+cargo build --release -p selfosc -p selfosc-simulator --bins
+python3 tests/trust/practical.py target/release/selfosc target/release/selfosc-simulator 26 5610000
+python3 tests/trust/unseen.py target/release/selfosc 5 5595000
+python3 tests/trust/cells.py target/release/selfosc 100 5700000

@@ -138,7 +138,10 @@ impl AxisModel<Interval> {
     }
 
     /// Every linear process that slow signals see where the drag has these slopes, times `1 + skew` to the one side and `1 - skew` to the
-    /// other; a limited rate is a delay of up to half the ramp, a pause of up to all of it. Coulomb friction has no slope but at rest, where it holds the axis.
+    /// other; a limited rate is a delay of up to half the ramp. Coulomb friction has no slope but at rest, where it holds the axis.
+    ///
+    /// A pause p is a delay of up to p: its describing function at the frequency w has a phase lag below w p. No process has its loss of
+    /// gain.
     #[must_use]
     pub fn processes(&self, slopes: Interval) -> LinearProcess<Interval> {
         let sides = (Interval::ONE - self.skew).hull(Interval::ONE + self.skew);

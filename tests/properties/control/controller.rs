@@ -115,9 +115,10 @@ fn further_terms_are_simulated() {
         memory_s: 1.5,
         lag_s: 0.3,
         ramp_s: 0.2,
+        pause_s: 0.12,
         filter_s: 0.25,
         delta: 0.05,
-        delay_s: 0.4,
+        delay_s: 0.34,
         ..AxisModel::default()
     };
     let (controller, dt_s, steps) = (Controller::new(&gains(Structure::Pd)), 0.02, 200);
@@ -127,7 +128,7 @@ fn further_terms_are_simulated() {
         let acceleration = force + 0.05 - drag - 0.2 * late - 0.3 * x;
         [v, acceleration, (v - late) / 1.5, (command - force) / 0.3, (x - read) / 0.25]
     };
-    // The delay and half of the ramp are 0.5 s: twenty-five samples.
+    // The delay, half of the ramp and half of the pause are 0.5 s: twenty-five samples.
     let (mut controller, mut state, mut commands, mut farthest) = (controller, [0.0; 5], vec![0.0; 25], 0.0_f64);
     for output in response.output() {
         farthest = farthest.max((state[0] - output).abs());

@@ -2,7 +2,7 @@
 
 use nalgebra::Complex;
 use proptest::prelude::*;
-use selfosc::control::{Gains, LinearProcess, ProcessIntervals, RobustCriterion, Structure, UncertainDrag};
+use selfosc::control::{AxisModel, Gains, LinearProcess, ProcessIntervals, RobustCriterion, Structure, UncertainDrag};
 use selfosc::numeric::Interval;
 
 use crate::sampling::recorded;
@@ -234,4 +234,23 @@ fn a_parallelepiped_is_proved_and_is_less_than_its_box() {
     assert_eq!(reaching.process().lag_s.lower(), 0.0);
     assert!(reaching.at([-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).is_none());
     assert!(reaching.corners().iter().all(|corner| corner.lag_s >= 0.0));
+}
+
+/// A sinusoid that stays zero for a pause after each change of its sign, by the midpoint rule: its first harmonic lags by less than the pause, and
+/// is smaller. The processes of an axis have delays up to that pause.
+#[test]
+fn a_pause_at_a_reversal_is_a_delay_of_up_to_the_pause() {
+    use std::f64::consts::PI;
+    const STEPS: u32 = 20_000;
+    for pause in (1..31).map(|k| f64::from(k) * 0.1) {
+        let angles = (0..STEPS).map(|k| (f64::from(k) + 0.5) * PI / f64::from(STEPS)).filter(|angle| *angle > pause);
+        let harmonic: Complex<f64> = angles.map(|angle| Complex::new(0.0, -angle).exp() * angle.sin()).sum();
+        // A sinusoid has -j: a lag turns its harmonic back.
+        let found = harmonic * Complex::new(0.0, 2.0 / f64::from(STEPS));
+        assert!(-found.arg() > 0.0 && -found.arg() < pause, "{pause}: {found}");
+        assert!(found.norm() < 1.0 && (pause > 0.5 || found.norm() > 0.95), "{pause}: {found}");
+    }
+    let axis = AxisModel { alpha: 1.0, beta: 0.5, pause_s: 0.3, delay_s: 0.2, ..AxisModel::default() };
+    let delay = axis.map(Interval::point).processes(Interval::point(0.5)).delay_s;
+    assert!((delay.lower() - 0.2).abs() < 1e-12 && (delay.upper() - 0.5).abs() < 1e-12, "{delay}");
 }

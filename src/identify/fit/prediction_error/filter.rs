@@ -109,9 +109,7 @@ fn run_with<const N: usize>(
 ) -> Option<FilterPass> {
     let derivatives = wanted != Evaluation::Likelihood;
     let actuator = Actuator::new(&observations.pieces, model, observations.range);
-    let late = model.value(Parameter::DelayS)
-        + model.value(Parameter::LagS)
-        + 0.5 * (model.value(Parameter::RampS) + model.value(Parameter::PauseS));
+    let late = model.mean_lag_s(&[Parameter::DelayS, Parameter::LagS, Parameter::RampS, Parameter::PauseS]);
     let kicks = observations.kicks.iter().filter(|kick| kick.variance_s2 > 0.0);
     let kicks =
         kicks.map(|kick| (kick.at_s + late, IntegrationStop::Kick { jump: kick.jump, variance_s2: kick.variance_s2 }));

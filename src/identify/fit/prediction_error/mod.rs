@@ -2,12 +2,12 @@
 //! parameters of motion and disturbances that maximise the likelihood of its innovations.
 //!
 //! The vehicle is
-//! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x'' + memory s + k x = a(t - T_d) + delta + w(t)`,
+//! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + memory s + k x = a(t - T_d) + delta + w(t)`,
 //! `tau a' = u - a`, `memory_s s' = x' - s`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970;
-//! Kristensen, Madsen and Jorgensen 2004; Ljung 1999, chapter 7). Inertia, drag, disturbance and white noise are always there. Terms are a lag, a limited rate, a pause of the thrust at a reversal, a restoring force, cubic
-//! and one-sided drag, fluid memory, a filter of the sensor and a delay that differs from the given delay; a process force
-//! and coloured noise. Each is tried, and joins where the record is enough likelier for it. Intervals are those of all models tried, averaged, so
-//! that an interval allows for the choice among them.
+//! Kristensen, Madsen and Jorgensen 2004; Ljung 1999, chapter 7). Inertia, drag, disturbance and white noise are always there. Terms of the
+//! motion are a lag, a limited rate, a pause of the thrust at a reversal, a restoring force, cubic and one-sided drag, and fluid memory.
+//! Others are a filter of the sensor, a delay that differs from the given delay, a process force and coloured noise. Each is tried, and joins
+//! where the record is enough likelier for it. Intervals are those of all models tried, averaged: they allow for the choice among them.
 //! Where readings are rounded, their errors belong together as far as the motion says, and the interval follows.
 //!
 //! Not guaranteed: a term near its threshold of detection may be omitted, and a structure outside the family may

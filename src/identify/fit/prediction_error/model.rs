@@ -4,7 +4,7 @@ use crate::identify::answer::DragLaw;
 use crate::identify::signal::{Clock, SwitchingInstant};
 
 /// Structural parameters of
-/// `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x'' + memory s + k x = a(t - T_d) + delta + w(t)`,
+/// `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + memory s + k x = a(t - T_d) + delta + w(t)`,
 /// `tau a' = u - a`, `memory_s s' = x' - s`, `filter y' = x - y`, and the state in which the record begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(usize)]
@@ -65,6 +65,15 @@ impl Parameter {
         Self::Position,
         Self::Velocity,
     ];
+
+    /// Mean time by which one unit of the parameter makes the output late: half of a ramp or of a pause, which begin at once.
+    pub(super) fn mean_lag(self) -> f64 {
+        match self {
+            Self::DelayS | Self::LagS | Self::FilterS => 1.0,
+            Self::RampS | Self::PauseS => 0.5,
+            _ => 0.0,
+        }
+    }
 }
 
 /// Parameters of the random inputs, each a logarithm.
@@ -117,6 +126,11 @@ impl VehicleModel {
 
     pub(super) fn value(&self, parameter: Parameter) -> f64 {
         self.values[parameter as usize]
+    }
+
+    /// Mean time by which parameters make the output late, in s.
+    pub(super) fn mean_lag_s(&self, parameters: &[Parameter]) -> f64 {
+        parameters.iter().map(|parameter| parameter.mean_lag() * self.value(*parameter)).sum()
     }
 
     pub(super) fn is_free(&self, parameter: Parameter) -> bool {

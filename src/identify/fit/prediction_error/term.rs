@@ -6,7 +6,7 @@ use crate::identify::answer::Term;
 
 impl Term {
     /// The structural parameters that the term consists of; none for what is random.
-    fn parameters(self) -> &'static [Parameter] {
+    pub(super) fn parameters(self) -> &'static [Parameter] {
         match self {
             Self::Lag => &[Parameter::LagS],
             Self::RateLimit => &[Parameter::RampS],
@@ -44,20 +44,28 @@ impl Term {
             && self.noises().iter().all(|noise| model.has_noise(*noise))
     }
 
+    /// Whether a record can show the term.
+    pub(super) fn is_shown(self, observations: &Observations) -> bool {
+        match self {
+            Self::RateLimit => observations.switched,
+            Self::ReversalPause => observations.reverses(),
+            _ => true,
+        }
+    }
+
+    /// Whether the term is not tried beside the other.
+    pub(super) fn excludes(self, other: Self) -> bool {
+        let pair = [self, other];
+        // Behind a lag or a ramp the force has no derivative by the length of a pause.
+        let behind = pair.contains(&Self::Lag) || pair.contains(&Self::RateLimit);
+        // A force that changes with time takes in the effect of late drag.
+        (pair.contains(&Self::ReversalPause) && behind) || (self == Self::FluidMemory && other == Self::ProcessForce)
+    }
+
     /// Whether the model admits the term.
     pub(super) fn applies(self, model: &VehicleModel, observations: &Observations) -> bool {
-        !self.is_in(model)
-            && match self {
-                // Behind a lag or a ramp the force has no derivative by the length of a pause: these terms exclude it.
-                Self::Lag => !Self::ReversalPause.is_in(model),
-                Self::RateLimit => observations.switched && !Self::ReversalPause.is_in(model),
-                Self::ReversalPause => {
-                    observations.reverses() && !Self::Lag.is_in(model) && !Self::RateLimit.is_in(model)
-                }
-                // A force that changes with time takes in what late drag does.
-                Self::FluidMemory => !Self::ProcessForce.is_in(model),
-                _ => true,
-            }
+        let excluded = Self::ALL.into_iter().any(|other| self.excludes(other) && other.is_in(model));
+        !self.is_in(model) && !excluded && self.is_shown(observations)
     }
 
     /// The model without the term; what rests on it goes too. `known_delay_s` takes the place of one estimated.
@@ -68,18 +76,11 @@ impl Term {
             model.set(Parameter::DelayS, value, false);
             return model;
         }
-        for &parameter in self.parameters() {
+        if model.is_free(Parameter::DelayS) {
             // The mean delay stays.
-            let late = match parameter {
-                Parameter::LagS | Parameter::FilterS => model.value(parameter),
-                Parameter::RampS | Parameter::PauseS => 0.5 * model.value(parameter),
-                _ => 0.0,
-            };
-            if model.is_free(Parameter::DelayS) {
-                model.values[Parameter::DelayS as usize] += late;
-            }
-            model.set(parameter, 0.0, false);
+            model.values[Parameter::DelayS as usize] += model.mean_lag_s(self.parameters());
         }
+        self.parameters().iter().for_each(|parameter| model.set(*parameter, 0.0, false));
         for noise in self.noises() {
             model.set_noise(*noise, 0.0, false);
         }
@@ -121,13 +122,12 @@ impl Term {
             Self::Delay => vec![with(Parameter::DelayS, model.value(Parameter::DelayS))],
             Self::Lag | Self::RateLimit | Self::ReversalPause | Self::SensorFilter => {
                 let parameter = self.parameters()[0];
-                let mean = if matches!(self, Self::RateLimit | Self::ReversalPause) { 0.5 } else { 1.0 };
                 let delay_s = model.value(Parameter::DelayS);
                 let late = |part: f64| {
                     // At a known delay the lag comes on top; else it takes the place of a part of the delay.
                     let time_s =
                         if model.is_free(Parameter::DelayS) { part * delay_s } else { 0.1 * part * half_period };
-                    let mut model = with(parameter, time_s.max(0.3 * interval) / mean);
+                    let mut model = with(parameter, time_s.max(0.3 * interval) / parameter.mean_lag());
                     if model.is_free(Parameter::DelayS) {
                         model.values[Parameter::DelayS as usize] = (delay_s - time_s).max(0.0);
                     }
