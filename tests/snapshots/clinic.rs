@@ -29,12 +29,21 @@ impl Log {
 }
 
 fn identify(log: &str, flags: &[&str]) -> (Option<i32>, Value) {
+    identify_files(&[("log.csv", log)], &["log.csv"], flags)
+}
+
+/// Writes files and identifies from some of them.
+fn identify_files(files: &[(&str, &str)], records: &[&str], flags: &[&str]) -> (Option<i32>, Value) {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("log.csv"), log).unwrap();
+    for (name, log) in files {
+        std::fs::write(folder.path().join(name), log).unwrap();
+    }
     let output = Command::cargo_bin("selfosc")
         .unwrap()
         .current_dir(&folder)
-        .args(["identify", "log.csv", "--method", "fit", "--json"])
+        .arg("identify")
+        .args(records)
+        .args(["--method", "fit", "--json"])
         .args(flags)
         .output()
         .unwrap();
@@ -364,16 +373,28 @@ fn a_command_logged_slowly_widens_the_answer() {
     assert!((0.0..=0.1).contains(&number(&answer, "delay_s", "value")), "{}", answer["reported"]["delay_s"]);
 }
 
-/// A speed controller that waits a quarter of a second at each reversal is named, and the inertia is right.
+/// A speed controller that waits a quarter of a second at each reversal is named, and the inertia is right: from one record, and from two
+/// together. The answer predicts the other record, and its practical interval holds the pause.
 #[test]
 fn a_pause_of_the_thrust_at_a_reversal_is_named() {
-    let rows = experiment([0.04, 0.02, 0.05], [1.0, 1.0], [0.1, 0.25, 0.1, 0.25], [20.0, 0.0017], 60.0);
-    let (status, answer) =
-        identify(&Log(rows).text("time_s,yaw,command", |_, [t, x, u]| Some(format!("{t:.2},{x:.4},{u}"))), &[]);
-    assert_eq!(status, Some(0), "{answer}");
-    let reasons = answer["reported"]["reasons"].as_array().unwrap();
-    assert!(reasons.iter().any(|reason| reason["code"] == "reversal-pause"), "{reasons:?}");
-    assert_eq!(answer["reported"]["trust"], "widened");
-    assert!((number(&answer, "alpha", "value") / 0.04 - 1.0).abs() < 0.01, "{}", answer["reported"]["alpha"]);
-    assert!((number(&answer, "pause_s", "value") - 0.25).abs() < 0.02, "{}", answer["reported"]["pause_s"]);
+    let vehicle = [0.04, 0.02, 0.05];
+    let [first, second] = [(0.25, 60.0), (0.4, 45.0)].map(|(half_width, duration_s)| {
+        let rows = experiment(vehicle, [1.0, 1.0], [0.1, half_width, 0.1, 0.25], [20.0, 0.0017], duration_s);
+        Log(rows).text("time_s,yaw,command", |_, [t, x, u]| Some(format!("{t:.2},{x:.4},{u}")))
+    });
+    let files = [("first.csv", first.as_str()), ("second.csv", second.as_str())];
+    for records in [&["first.csv"][..], &["first.csv", "second.csv"]] {
+        let (status, answer) = identify_files(&files, records, &["--validate", "second.csv"]);
+        assert_eq!(status, Some(0), "{answer}");
+        let reasons = answer["reported"]["reasons"].as_array().unwrap();
+        assert!(reasons.iter().any(|reason| reason["code"] == "reversal-pause"), "{reasons:?}");
+        assert_ne!(answer["reported"]["trust"], "doubtful");
+        assert!((number(&answer, "alpha", "value") / 0.04 - 1.0).abs() < 0.01, "{}", answer["reported"]["alpha"]);
+        let pause_s = &answer["reported"]["pause_s"];
+        assert!((pause_s["value"].as_f64().unwrap() - 0.25).abs() < 0.02, "{pause_s}");
+        let [low, high] = ["low", "high"].map(|end| pause_s["combined"][end].as_f64().unwrap());
+        assert!((low..=high).contains(&0.25), "{pause_s}");
+        let fit_percent = answer["validation"][0]["prediction"]["fit_percent"].as_f64().unwrap();
+        assert!(fit_percent > 99.0, "{}", answer["validation"]);
+    }
 }

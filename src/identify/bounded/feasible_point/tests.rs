@@ -45,3 +45,17 @@ fn a_point_is_found_outside_of_the_box_from_which_the_descent_begins() {
     let outside = contractor.nearest(&from, &known.problem.search).expect("a parameter");
     assert!(!inside.is_feasible() && outside.is_feasible(), "{} and {}", inside.misfit, outside.misfit);
 }
+
+/// A reading that is three errors too high and one that is three too low: a parameter misses either by two to four.
+#[test]
+fn a_misfit_counts_readings_above_and_below() {
+    let Known { problem, truth, .. } = Known::of(&LINEAR, 100, true);
+    assert!(problem.misfit(&truth).expect("a motion") <= 1.0);
+    for errors in [-3.0, 3.0] {
+        let mut off = problem.clone();
+        let readings = &mut off.records[0];
+        readings.value[50] += errors * readings.error;
+        let misfit = off.misfit(&truth).expect("a motion");
+        assert!((2.0..=4.0).contains(&misfit), "{errors}: {misfit}");
+    }
+}

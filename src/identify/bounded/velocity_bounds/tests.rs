@@ -96,3 +96,27 @@ fn late_stamps_are_granted_and_on_time_they_would_miss_the_velocity() {
     assert_eq!(missed(0.101), Some(0));
     assert!(missed(0.0).is_none_or(|missed| missed > 10), "{:?}", missed(0.0));
 }
+
+/// Drag is odd: of speeds astern it takes as much as ahead. Motions by Euler's method in small steps.
+#[test]
+fn velocities_between_samples_hold_motions_ahead_and_astern() {
+    let drag = [0.2, 1.0, 0.3];
+    let lasted_s = 0.4;
+    for from in [-1.5, -0.6, 0.0, 0.6, 1.5] {
+        for force in [-1.0, 0.0, 1.0] {
+            let range = passed(
+                drag.map(Interval::point),
+                Interval::point(from),
+                Interval::point(force),
+                Interval::ZERO.hull(Interval::point(lasted_s)),
+            );
+            let steps = 4000;
+            let mut v: f64 = from;
+            for _ in 0..steps {
+                v += lasted_s / f64::from(steps) * (force - drag[0] * v - drag[1] * v * v.abs() - drag[2] * v * v * v);
+                assert!(range.contains(v), "{v} from {from} under {force} is not in {range}");
+            }
+            assert!(range.width() < 4.0, "{from}, {force}: {range}");
+        }
+    }
+}

@@ -2,12 +2,14 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
+use super::confounded_lags::chains;
 use super::filter::{self, Evaluation};
 use super::model::{NoiseParameter, Parameter, VehicleModel};
 use super::observations::Observations;
 use super::rounding;
 use super::scoring::Fitted;
 use crate::experiment::Record;
+use crate::identify::answer::Term;
 use crate::identify::signal::{Clock, SwitchingInstant};
 
 /// A command that switches, and an output about the motion that [`model`] has.
@@ -343,4 +345,48 @@ fn estimates_of_rounded_readings_scatter_as_said() {
     let pass = filter::run(&observations, &model, Evaluation::Score).expect("a pass");
     let fitted = Fitted { log_likelihood: 0.0, score: pass.score(), pass, model, settled: true, integrated: 0 };
     assert!(rounding::factors(&fitted, &observations, &[0]).is_none());
+}
+
+/// Mean time by which a force that jumps from -1 to 1 is late, in s: half of the area between the jump and the force. A ramp over T
+/// and a pause of T take T/2, a time constant takes itself.
+fn late_s(model: &VehicleModel) -> f64 {
+    let [delay, lag, filter, ramp, pause] =
+        [Parameter::DelayS, Parameter::LagS, Parameter::FilterS, Parameter::RampS, Parameter::PauseS]
+            .map(|parameter| model.value(parameter));
+    delay + lag + filter + 0.5 * (ramp + pause)
+}
+
+/// The chains of two commands, of one that changes its sign and one that does not, with the number of single lags and pairs.
+#[test]
+fn confounded_lags_share_the_mean_lag_and_a_pause_stands_apart() {
+    let reverses = record();
+    let (time, output) = (reverses.time_s().to_vec(), reverses.output().to_vec());
+    let input = reverses.input().iter().map(|u| f64::from(*u > 0.0)).collect();
+    let heats = Record::new(time, output, input).expect("a record");
+    let lags = [
+        (Term::Lag, Parameter::LagS),
+        (Term::SensorFilter, Parameter::FilterS),
+        (Term::RateLimit, Parameter::RampS),
+        (Term::ReversalPause, Parameter::PauseS),
+    ];
+    for (record, known_delay_s, expected) in
+        [(&reverses, None, 8), (&reverses, Some(0.02), 13), (&heats, None, 6), (&heats, Some(0.02), 10)]
+    {
+        let observations = Observations::new(record, Clock::Stamps, SwitchingInstant::AtSamples);
+        for (term, parameter) in lags {
+            let mut model = model();
+            model.set(parameter, 0.2, true);
+            let chains = chains(&model, known_delay_s, &observations);
+            assert_eq!(chains.len(), expected, "{term:?}, {known_delay_s:?}");
+            for chain in &chains {
+                assert!((late_s(chain) - late_s(&model)).abs() < 1e-12, "{term:?}: {chain:?}");
+                let pauses = chain.is_free(Parameter::PauseS);
+                let behind = chain.is_free(Parameter::LagS) || chain.is_free(Parameter::RampS);
+                assert!(!(pauses && behind), "{term:?}: {chain:?}");
+            }
+            assert!(chains.iter().any(|chain| chain.is_free(Parameter::PauseS)) == observations.reverses());
+            let without = term.without(&model, known_delay_s);
+            assert!(!term.is_in(&without) && (late_s(&without) - late_s(&model)).abs() < 1e-12, "{without:?}");
+        }
+    }
 }
