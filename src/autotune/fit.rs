@@ -1,10 +1,10 @@
-//! From a record to the processes that it leaves: search, errors' autoregression, weights, contradictions.
+//! From a record to the processes that it leaves: search, weights, contradictions.
 
 use nalgebra::DVector;
 
-use super::projection::{ORDER, ProjectionProblem, autoregression};
+use super::projection::ProjectionProblem;
 use super::response::HeldCommand;
-use super::search::{ONE, SearchScales, Searches, TWO};
+use super::search::{FOLLOWED, ONE, SearchScales, Searches, TWO};
 use super::structure_fit::{StructureFit, distinct, fitted};
 use super::{Contradiction, LEAST_EXPLAINED, ProcessError, ProcessModel, ProcessRecord};
 use crate::experiment::Record;
@@ -59,16 +59,15 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
     // Mean time between changes: dead times beyond it are those of another change.
     let half_s = (changes[changes.len() - 1] - changes[0]) / (changes.len() - 1) as f64;
     let scale_s = 2.0 * half_s;
-    let mut problem =
-        ProjectionProblem { command, output: record.output().to_vec(), first: ORDER, autoregression: vec![] };
+    let mut problem = ProjectionProblem { command, output: record.output().to_vec(), first: 0 };
     let longest_s = half_s.min(duration_s / 3.0);
     // The command before the record acts up to the dead time, of whichever structure: readings so early do not count. Those that
     // do count may show a longer dead time.
-    let scales = SearchScales { scale_s, longest_s, quantum };
+    let scales = SearchScales { scale_s, longest_s, followed: 1, quantum };
     let mut searches = Searches::default();
     loop {
         searches = searches.pass(&problem, &ONE, scales);
-        let dead_s = searches.best().map(|(_, point)| point[0]).fold(0.0, f64::max);
+        let dead_s = searches.best().map(|(_, point)| point.times_s[0]).fold(0.0, f64::max);
         let skip_s = (1.2 * dead_s + interval_s).min(duration_s / 3.0);
         let first = problem.command.time_s().iter().position(|time| *time > skip_s).unwrap_or(0);
         if first <= problem.first {
@@ -76,40 +75,31 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
         }
         problem.first = first;
     }
-    let mut fits = |problem: &ProjectionProblem| {
-        searches = searches.pass(problem, &[ONE.as_slice(), &TWO].concat(), scales);
-        let mut fits: Vec<StructureFit> =
-            searches.best().filter_map(|(family, point)| fitted(problem, family, point, interval_s, quantum)).collect();
-        fits.sort_by(|a, b| a.criterion.total_cmp(&b.criterion));
-        distinct(fits)
-    };
-    let mut found = fits(&problem);
+    let scales = SearchScales { followed: FOLLOWED, ..scales };
+    let searches = searches.pass(&problem, &[ONE.as_slice(), &TWO].concat(), scales);
+    let fits = searches.best().filter_map(|(family, point)| fitted(&problem, family, point, interval_s, quantum));
+    let mut found = distinct(fits.collect());
+    found.sort_by(|a, b| a.criterion.total_cmp(&b.criterion));
+    let no_answer = |left: f64| ProcessError::NoAnswer { left: left.min(1.0) };
     let mean = problem.output[problem.first..].iter().sum::<f64>() / (samples - problem.first) as f64;
     let variation: f64 = problem.output[problem.first..].iter().map(|y| (y - mean).powi(2)).sum();
-    let no_answer = |left: f64| ProcessError::NoAnswer { left: left.min(1.0) };
-    // Errors that are correlated leave slow parts free: also then the output itself is explained.
-    let explaining = |mut found: Vec<StructureFit>| {
-        let left = |fit: &StructureFit| fit.plain.norm_squared() / variation.max(f64::MIN_POSITIVE);
-        let least = found.iter().map(left).fold(f64::INFINITY, f64::min);
-        found.retain(|fit| left(fit) < 1.0 - LEAST_EXPLAINED);
-        if found.is_empty() { Err(no_answer(least)) } else { Ok(found) }
-    };
-    found = explaining(found)?;
-    let best = found.first().ok_or(no_answer(1.0))?;
+    // The command explains the output under a constant load, or the innovations where the load wanders.
+    let left = |fit: &StructureFit| fit.left.min(fit.plain.norm_squared() / variation.max(f64::MIN_POSITIVE));
+    let least = found.iter().map(left).fold(f64::INFINITY, f64::min);
+    found.retain(|fit| left(fit) < 1.0 - LEAST_EXPLAINED);
+    let best = found.first().ok_or(no_answer(least))?;
     let neighbours = |errors: &DVector<f64>| {
         let products: f64 = (1..errors.len()).map(|k| errors[k] * errors[k - 1]).sum();
         products / errors.norm_squared().max(f64::MIN_POSITIVE)
     };
     let correlation = neighbours(&best.plain);
-    problem.autoregression = autoregression(&best.plain);
-    if !problem.autoregression.is_empty() {
-        found = explaining(fits(&problem))?;
-    }
-    let residuals: Vec<f64> = found.first().map_or_else(Vec::new, |best| best.plain.iter().copied().collect());
-    let residual = (residuals.iter().map(|part| part * part).sum::<f64>() / residuals.len().max(1) as f64).sqrt();
-    let least = found.first().map_or(0.0, |best| best.criterion);
+    let root_mean_square =
+        |parts: &[f64]| (parts.iter().map(|part| part * part).sum::<f64>() / parts.len() as f64).sqrt();
+    let (spread, residuals) = (root_mean_square(best.plain.as_slice()), best.innovations.clone());
+    let residual = root_mean_square(&residuals);
+    let least = best.criterion;
     let total: f64 = found.iter().map(|fit| libm::exp(-0.5 * (fit.criterion - least))).sum();
-    let reverse = found.first().is_some_and(|best| best.model.parameters[0].value < 0.0);
+    let reverse = best.model.parameters[0].value < 0.0;
     let models = found
         .into_iter()
         .map(|fit| ProcessModel {
@@ -120,7 +110,7 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
         .filter(|model| model.weight >= ProcessRecord::LEAST_WEIGHT && (model.parameters[0].value < 0.0) == reverse)
         .collect();
     let changes = changes.len();
-    let contradiction = if against_relay(record, reverse, residual, half_s) {
+    let contradiction = if against_relay(record, reverse, spread, half_s) {
         Some(Contradiction::AgainstRelay)
     } else {
         saturated(record.output(), quantum, correlation).then_some(Contradiction::Saturated)

@@ -334,10 +334,17 @@ impl ProcessRecord {
             let limit = RobustCriterion::Sensitivity(wanted.sensitivity);
             sets.iter().all(|set| set.all_have(&gains, limit)).then_some(gains)
         };
-        // A set too wide for the least gain takes many boxes with each: the least is tried before those between.
+        // A set too wide takes many boxes with each: bisection between the gain found and the least that is tried.
         let gains = proved(0).or_else(|| {
-            let least = proved(STEPS_BACK)?;
-            (1..STEPS_BACK).find_map(proved).or(Some(least))
+            let (mut unproved, mut back, mut least) = (0, STEPS_BACK, proved(STEPS_BACK)?);
+            while back - unproved > 1 {
+                let middle = (unproved + back) / 2;
+                match proved(middle) {
+                    Some(gains) => (back, least) = (middle, gains),
+                    None => unproved = middle,
+                }
+            }
+            Some(least)
         })?;
         Some(ProvedGains { gains, sensitivity: wanted.sensitivity, sets })
     }

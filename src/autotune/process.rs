@@ -51,13 +51,13 @@ impl Family {
         matches!(self, Self::Integrator | Self::IntegratorLag)
     }
 
-    /// Structures that this becomes where its lag, its second lag or its zero is 0, or its lags are equal.
+    /// Structures that this becomes where a lag or the zero is 0, lags are equal, or a lag is longer than any record.
     pub(super) fn limits(self) -> &'static [Self] {
         match self {
-            Self::FirstOrder | Self::EqualLags | Self::Integrator => &[],
-            Self::SecondOrder => &[Self::FirstOrder, Self::EqualLags],
-            Self::SecondOrderZero => &[Self::FirstOrder, Self::EqualLags, Self::SecondOrder],
-            Self::IntegratorLag => &[Self::Integrator],
+            Self::EqualLags | Self::Integrator => &[],
+            Self::FirstOrder | Self::IntegratorLag => &[Self::Integrator],
+            Self::SecondOrder => &[Self::FirstOrder, Self::EqualLags, Self::IntegratorLag],
+            Self::SecondOrderZero => &[Self::FirstOrder, Self::EqualLags, Self::SecondOrder, Self::IntegratorLag],
         }
     }
 
@@ -123,11 +123,12 @@ pub struct ProcessRecord {
     pub reverse: bool,
     /// Why the record is none of a linear process, where it shows so.
     pub contradiction: Option<Contradiction>,
-    /// Standard deviation of what is left of the readings, output units.
+    /// Root mean square of the residuals, output units.
     pub residual: f64,
-    /// What the likeliest structure leaves of the last [`samples`](Self::samples) readings, output units.
+    /// The last [`samples`](Self::samples) readings less what the likeliest structure predicts of each from the readings before, output
+    /// units: the innovations under a load that wanders.
     pub residuals: Vec<f64>,
-    /// Correlation of neighbouring residuals before it was taken into account.
+    /// Correlation of neighbouring errors under a load that is constant.
     pub correlation: f64,
     /// Samples used.
     pub samples: usize,

@@ -6,8 +6,14 @@ use super::projection::{ProjectionProblem, SearchPoint};
 /// Starts: so many time constants, and so many dead times, on grids.
 const TIME_CONSTANTS: u32 = 10;
 const DEAD_TIMES: u32 = 12;
-/// Starts that are followed.
-const FOLLOWED: usize = 3;
+/// Starts of the load's variance: what it gains in a period, over the variance of a reading's white error.
+const WALKS: [f64; 2] = [1e-4, 1.0];
+/// The same, at least: no reading shows less.
+const LEAST_WALK: f64 = 1e-6;
+/// A time constant of so many durations of the record is an integrator.
+const LONGEST: f64 = 20.0;
+/// Starts that are followed to the processes of a record.
+pub(super) const FOLLOWED: usize = 3;
 /// Rounds of the search from one start.
 const ROUNDS: u32 = 120;
 /// The search ends where a step changes twice the log likelihood by less: a thirtieth of a standard deviation.
@@ -22,16 +28,30 @@ pub(super) struct SearchScales {
     pub(super) scale_s: f64,
     /// Longest dead time.
     pub(super) longest_s: f64,
+    /// Starts that are followed.
+    pub(super) followed: usize,
     /// The readings' rounding, output units.
     pub(super) quantum: f64,
 }
 
+impl SearchScales {
+    /// A load that moves the output by as much as a white error in a period.
+    fn walk(self, family: Family) -> f64 {
+        self.scale_s.powi(if family.integrates() { -3 } else { -1 })
+    }
+}
+
 /// The points with the least squares.
-fn few(problem: &ProjectionProblem, family: Family, points: impl IntoIterator<Item = SearchPoint>) -> Vec<SearchPoint> {
+fn few(
+    problem: &ProjectionProblem,
+    family: Family,
+    followed: usize,
+    points: impl IntoIterator<Item = SearchPoint>,
+) -> Vec<SearchPoint> {
     let mut few: Vec<(f64, SearchPoint)> =
         points.into_iter().map(|point| (problem.square(family, &point), point)).collect();
     few.sort_by(|a, b| a.0.total_cmp(&b.0));
-    few.truncate(FOLLOWED);
+    few.truncate(followed);
     few.into_iter().map(|(_, point)| point).collect()
 }
 
@@ -41,20 +61,21 @@ fn grid(family: Family, scales: SearchScales) -> Vec<SearchPoint> {
         .map(|k| 0.02 * scales.scale_s * libm::pow(500.0_f64, f64::from(k) / f64::from(TIME_CONSTANTS - 1)))
         .collect();
     let delays = (0..DEAD_TIMES).map(|k| scales.longest_s * (f64::from(k) / f64::from(DEAD_TIMES - 1)).powi(2));
-    delays
-        .flat_map(|delay| match family {
-            Family::Integrator => vec![vec![delay]],
-            _ => lags.iter().map(|lag| vec![delay, *lag]).collect(),
-        })
-        .collect()
+    let times = delays.flat_map(|delay| match family {
+        Family::Integrator => vec![vec![delay]],
+        _ => lags.iter().map(|lag| vec![delay, *lag]).collect(),
+    });
+    let walks = WALKS.map(|walk| walk * scales.walk(family));
+    times.flat_map(|times_s| walks.map(|walk| SearchPoint { times_s: times_s.clone(), walk })).collect()
 }
 
 /// Points with a second time constant about a point without it; the second lag stands for part of the dead time, or not.
-fn with_second(point: &[f64]) -> impl Iterator<Item = SearchPoint> {
-    let (delay, lag) = (point[0], point[1]);
+fn with_second(point: &SearchPoint) -> impl Iterator<Item = SearchPoint> {
+    let (delay, lag, walk) = (point.times_s[0], point.times_s[1], point.walk);
     [0.05, 0.2, 0.6].into_iter().flat_map(move |share| {
         let less = (delay - share * lag).max(0.0);
-        [vec![delay, lag, share * lag], vec![less, lag, share * lag], vec![delay, lag / share, lag]]
+        let times = [vec![delay, lag, share * lag], vec![less, lag, share * lag], vec![delay, lag / share, lag]];
+        times.map(|times_s| SearchPoint { times_s, walk })
     })
 }
 
@@ -66,25 +87,40 @@ fn descent(
     scales: SearchScales,
 ) -> (f64, SearchPoint) {
     let interval_s = scales.scale_s / 400.0;
+    let duration_s = problem.command.time_s().last().copied().unwrap_or(0.0);
     let count = (problem.output.len() - problem.first) as f64;
     let (mut square, mut point) = (problem.square(family, &start), start);
-    // Steps of the dead time in s, of the time constants relative.
-    let mut step: Vec<f64> = (0..point.len()).map(|k| if k == 0 { scales.longest_s / 10.0 } else { 0.5 }).collect();
+    let times = point.times_s.len();
+    let least_walk = LEAST_WALK * scales.walk(family);
+    // Steps of the dead time in s, of the time constants and of the load's variance relative.
+    let mut step: Vec<f64> = (0..=times)
+        .map(|k| {
+            if k == 0 {
+                scales.longest_s / 10.0
+            } else if k < times {
+                0.5
+            } else {
+                2.0
+            }
+        })
+        .collect();
     let finest = |k: usize| FINEST * if k == 0 { interval_s } else { 1.0 };
     for _ in 0..ROUNDS {
         let mut settled = true;
-        for k in 0..point.len() {
+        for k in 0..=times {
             let moved = |sign: f64| {
                 let mut other = point.clone();
                 if k == 0 {
-                    other[0] = (other[0] + sign * step[0]).max(0.0)
+                    other.times_s[0] = (other.times_s[0] + sign * step[0]).max(0.0)
+                } else if k < times {
+                    other.times_s[k] = (other.times_s[k] * libm::exp(sign * step[k])).min(LONGEST * duration_s)
                 } else {
-                    other[k] *= libm::exp(sign * step[k])
+                    other.walk = (other.walk * libm::exp(sign * step[k])).max(least_walk);
                 }
                 // Dead time and time constants stand for each other: a longer lag takes from the dead time.
-                let turned = (k > 0).then(|| {
+                let turned = (0 < k && k < times).then(|| {
                     let mut turned = other.clone();
-                    turned[0] = (turned[0] - (other[k] - point[k])).max(0.0);
+                    turned.times_s[0] = (turned.times_s[0] - (other.times_s[k] - point.times_s[k])).max(0.0);
                     turned
                 });
                 core::iter::once(other).chain(turned)
@@ -132,9 +168,9 @@ impl Searches {
             // Structures nest: those with two different time constants begin about the ends of those with one.
             let starts = if matches!(family, Family::SecondOrder | Family::SecondOrderZero) {
                 let one = [Family::FirstOrder, Family::EqualLags].into_iter().flat_map(|one| found.ends(one));
-                few(problem, family, one.flat_map(|end| with_second(end)).chain(before))
+                few(problem, family, scales.followed, one.flat_map(with_second).chain(before))
             } else {
-                few(problem, family, grid(family, scales).into_iter().chain(before))
+                few(problem, family, scales.followed, grid(family, scales).into_iter().chain(before))
             };
             let mut ends: Vec<(f64, SearchPoint)> =
                 starts.into_iter().map(|start| descent(problem, family, start, scales)).collect();

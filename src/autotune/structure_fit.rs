@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::projection::{ProjectionProblem, unit_columns};
+use super::projection::{ProjectionProblem, SearchPoint, unit_columns};
 use super::search::SETTLED;
 use super::{Family, ProcessModel, Ranged};
 use crate::identify::NORMAL_95;
@@ -11,8 +11,8 @@ use crate::identify::NORMAL_95;
 const UNTOLD: f64 = 1e-12;
 
 /// Gain, dead time and time constants of a structure, and the coefficients of its equation of motion.
-fn meaning(family: Family, point: &[f64], linear: &[f64]) -> (Vec<f64>, [f64; 5]) {
-    let (delay_s, lag) = (point[0], |k: usize| point.get(k).copied().unwrap_or(0.0));
+fn meaning(family: Family, times_s: &[f64], linear: &[f64]) -> (Vec<f64>, [f64; 5]) {
+    let (delay_s, lag) = (times_s[0], |k: usize| times_s.get(k).copied().unwrap_or(0.0));
     match family {
         Family::SecondOrderZero => {
             let gain = linear[0] + linear[1];
@@ -31,7 +31,7 @@ fn meaning(family: Family, point: &[f64], linear: &[f64]) -> (Vec<f64>, [f64; 5]
                 Family::SecondOrder | Family::SecondOrderZero => [lag(1) * lag(2), lag(1) + lag(2), 1.0],
             };
             let body = body.map(|part| part / gain.abs());
-            let parameters = [gain, delay_s].into_iter().chain(point[1..].iter().copied()).collect();
+            let parameters = [gain, delay_s].into_iter().chain(times_s[1..].iter().copied()).collect();
             (parameters, [body[0], body[1], body[2], 0.0, delay_s])
         }
     }
@@ -44,49 +44,56 @@ pub(super) struct StructureFit {
     /// Minus twice the largest log likelihood, up to a constant of the record.
     misfit: f64,
     pub(super) model: ProcessModel,
+    pub(super) innovations: Vec<f64>,
     pub(super) plain: DVector<f64>,
+    /// Share of the innovations' square that the answers to the command leave.
+    pub(super) left: f64,
 }
 
 pub(super) fn fitted(
     problem: &ProjectionProblem,
     family: Family,
-    point: &[f64],
+    point: &SearchPoint,
     interval_s: f64,
     quantum: f64,
 ) -> Option<StructureFit> {
     let found = problem.projection(family, point)?;
-    let (count, searched) = (found.residual.len() as f64, point.len());
+    let (count, searched) = (found.innovations.len() as f64, point.times_s.len());
     let free = searched + found.linear.len();
     // Rounding leaves an error even where the residual shows none.
     let least = quantum * quantum / 12.0;
     let variance = (found.square / (count - free as f64).max(1.0)).max(least);
-    let misfit = count * libm::log((found.square / count).max(least).max(f64::MIN_POSITIVE));
-    let criterion = count * libm::log(variance) + free as f64 * libm::log(count);
-    // Sensitivities of the readings to all parameters: differences over half an interval bridge the kinks.
+    let likeliest = (found.square / count).max(least).max(f64::MIN_POSITIVE);
+    let misfit = count * (libm::log(likeliest) + found.log_variance);
+    let criterion = count * (libm::log(variance) + found.log_variance) + free as f64 * libm::log(count);
+    // Sensitivities of the innovations to all parameters: differences over half an interval bridge the kinks.
     let columns = problem.columns(family, point);
-    let answer = |point: &[f64], linear: &[f64]| -> DVector<f64> {
-        let columns = problem.columns(family, point);
-        let sum: Vec<f64> = (0..problem.output.len())
-            .map(|k| columns.iter().zip(linear).map(|(column, a)| a * column[k]).sum())
-            .collect();
-        DVector::from(problem.whitened(&sum))
-    };
+    let filter = problem.filter(family, point);
+    let whitened = |series: &[f64]| DVector::from(filter.whitened(&series[problem.first..]));
     let linear: Vec<f64> = found.linear.iter().copied().collect();
+    let answer = |times_s: Vec<f64>| -> DVector<f64> {
+        let columns = problem.columns(family, &SearchPoint { times_s, walk: point.walk });
+        let sum: Vec<f64> = (0..problem.output.len())
+            .map(|k| columns.iter().zip(&linear).map(|(column, a)| a * column[k]).sum())
+            .collect();
+        whitened(&sum)
+    };
     let mut sensitivities: Vec<DVector<f64>> = Vec::new();
+    let times_s = &point.times_s;
     let steps: Vec<f64> = (0..searched)
-        .map(|k| if k == 0 { 0.5 * interval_s.min(point[0].max(interval_s)) } else { 1e-3 * point[k] })
+        .map(|k| if k == 0 { 0.5 * interval_s.min(times_s[0].max(interval_s)) } else { 1e-3 * times_s[k] })
         .collect();
     for k in 0..searched {
         let shifted = |sign: f64| {
-            let mut other = point.to_vec();
+            let mut other = times_s.clone();
             other[k] = (other[k] + sign * steps[k]).max(0.0);
             other
         };
         let (up, down) = (shifted(1.0), shifted(-1.0));
         let width = up[k] - down[k];
-        sensitivities.push((answer(&up, &linear) - answer(&down, &linear)) / width);
+        sensitivities.push((answer(up) - answer(down)) / width);
     }
-    sensitivities.extend(columns.iter().map(|column| DVector::from(problem.whitened(column))));
+    sensitivities.extend(columns.iter().map(|column| whitened(column)));
     let design = DMatrix::from_columns(&sensitivities);
     let (scaled, sizes) = unit_columns(&design);
     let information = scaled.transpose() * &scaled;
@@ -96,7 +103,7 @@ pub(super) fn fitted(
     let inverse = &eigen.eigenvectors * inverse * eigen.eigenvectors.transpose();
     let covariance = DMatrix::from_fn(free, free, |i, j| variance * inverse[(i, j)] / (sizes[i] * sizes[j]));
     // Both meanings are functions of all parameters: errors by their derivatives.
-    let all: Vec<f64> = point.iter().chain(&linear).copied().collect();
+    let all: Vec<f64> = times_s.iter().chain(&linear).copied().collect();
     let meaning_of = |all: &[f64]| {
         let (parameters, coefficients) = meaning(family, &all[..searched], &all[searched..]);
         parameters.into_iter().chain(coefficients).collect::<Vec<f64>>()
@@ -125,7 +132,9 @@ pub(super) fn fitted(
         covariance: core::array::from_fn(|i| core::array::from_fn(|j| spread[(named + i, named + j)])),
     };
     let finite = values.iter().chain(spread.iter()).all(|value| value.is_finite());
-    finite.then_some(StructureFit { family, criterion, misfit, model, plain: found.plain })
+    let left = found.square / found.undriven.max(f64::MIN_POSITIVE);
+    let (innovations, plain) = (found.innovations, found.plain);
+    finite.then_some(StructureFit { family, criterion, misfit, model, innovations, plain, left })
 }
 
 /// Without structures that fit no better than a limit of theirs: their lag is at its bound, and they are that limit.

@@ -19,6 +19,8 @@ struct Truth {
     dead_s: f64,
     lags_s: Vec<f64>,
     integrates: bool,
+    /// Standard deviation of a load that returns to its mean within five dead times.
+    wander: f64,
 }
 
 impl Truth {
@@ -40,7 +42,7 @@ impl Truth {
         let middle = if self.integrates { 0.0 } else { 0.4 * self.gain };
         let half = 0.02 * self.gain.abs() * if self.integrates { interval_s * 12.0 } else { 1.0 };
         let mut lagged = vec![if self.integrates { 0.4 } else { middle / self.gain }; self.lags_s.len()];
-        let (mut integral, mut command, mut changes) = (0.0, 1.0_f64, 0);
+        let (mut integral, mut command, mut changes, mut load) = (0.0, 1.0_f64, 0, 0.0_f64);
         let (mut time, mut output, mut input) = (vec![], vec![], vec![]);
         for step in 0.. {
             let through = lagged.last().copied().unwrap_or_else(|| ring[step % (late + 1)]);
@@ -64,7 +66,12 @@ impl Truth {
                 }
             }
             ring[step % (late + 1)] = command;
-            let mut drive = ring[(step + 1) % (late + 1)];
+            if self.wander > 0.0 {
+                let share = step_s / (5.0 * self.dead_s);
+                let sampled: f64 = StandardNormal.sample(&mut random);
+                load += self.wander * (2.0 * share).sqrt() * sampled - share * load;
+            }
+            let mut drive = ring[(step + 1) % (late + 1)] + load;
             for (state, lag) in lagged.iter_mut().zip(&self.lags_s) {
                 // Exact over a step of constant drive; a chain of lags to first order.
                 *state = drive + (*state - drive) * (-step_s / lag).exp();
@@ -101,7 +108,7 @@ fn drawn(seed: u64) -> (Truth, Family) {
         2 => (vec![], true, Family::Integrator),
         _ => (vec![second], true, Family::IntegratorLag),
     };
-    (Truth { gain, dead_s, lags_s, integrates }, family)
+    (Truth { gain, dead_s, lags_s, integrates, wander: 0.0 }, family)
 }
 
 /// Gains hold their limit on the process that made the record, and the set holds its ultimate point.
@@ -125,6 +132,32 @@ fn gains_hold_on_the_process_behind_the_record() {
         assert!(found.models.iter().any(|model| model.family == family) || seed % 4 == 1, "{seed}: {found:?}");
     }
     assert!(missed <= 2, "{missed} of 24 dead times missed");
+}
+
+/// Under a load that wanders by a twentieth of the command the structure is found, and gains hold.
+#[test]
+fn a_wandering_load_is_no_structure() {
+    let (mut missed, mut another, mut refused) = (0, 0, 0);
+    for seed in 0..16 {
+        let (steady, family) = drawn(seed);
+        let truth = Truth { wander: 0.05, ..steady };
+        let swing = 0.05 * truth.gain;
+        let record = truth.record(0.02 * swing, 0.02 * swing, seed);
+        let found = ProcessRecord::of(&record).unwrap();
+        let dead = found.models[0].parameters[1];
+        missed += usize::from((dead.value - truth.dead_s).abs() > 3.0 * dead.std + 0.1 * record.interval_s());
+        another += usize::from(!found.models.iter().any(|model| model.family == family));
+        let Some(proved) = found.gains(record.interval_s(), &GainsWanted::default()) else {
+            refused += 1;
+            continue;
+        };
+        let peak = truth.sensitivity(&proved.gains);
+        assert!(peak < 1.45, "{seed}: {peak} {truth:?} {found:?}");
+    }
+    assert!(
+        missed <= 1 && another <= 4 && refused <= 2,
+        "{missed} missed, {another} another structure, {refused} without gains"
+    );
 }
 
 /// The first-order process of at most 256 readings on board, in the number type `T`.

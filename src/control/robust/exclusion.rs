@@ -125,11 +125,18 @@ impl ProcessIntervals {
             if fell {
                 continue;
             }
-            // Mean value form: F(x) >= F(m) - sum |F'_i| r_i.
-            let middle = at.map(|side| Interval::point(side.midpoint()));
+            // Mean value form about any c: F(x) >= F(c) + sum F'_i (x_i - c_i). The bound is largest where both ends of F'_i = [l, u]
+            // leave the same, u (c - low) = -l (high - c) (Baumann, *BIT* 28, 1988).
+            let centre = core::array::from_fn(|k| {
+                let (side, slope) = (at[k], slopes[k]);
+                let share = slope.upper() / slope.width();
+                let best = share * side.lower() + (1.0 - share) * side.upper();
+                Interval::point(if side.contains(best) { best } else { side.midpoint() })
+            });
+            let least = self.excess(question, gains, centre);
             let form = (0..VARIABLES)
                 .filter(|k| !at[*k].is_point())
-                .fold(self.excess(question, gains, middle), |sum, k| sum + slopes[k] * (at[k] - middle[k]));
+                .fold(least, |sum, k| sum + slopes[k] * (at[k] - centre[k]));
             if form.is_positive() {
                 return None;
             }
