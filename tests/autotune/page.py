@@ -31,6 +31,7 @@ LIMITS = """
 - The optimum is found by a search of Nelder and Mead from two starts: a ratio below 1 is its shortfall.
 - `AMIGO after Berner` is told the equilibrium of load and output, which no record shows.
 - Gains are those for every process of the confidence set: where that is wide, the error is larger than the optimum of the known process.
+- The load of the fit walks at random; that of the records returns to its mean within twenty dead times.
 - Outside the structures of `autotune` the intervals of the gain are those of the nearest structure: half of them miss. Ultimate gain and
   frequency, on which stability rests, are held.
 """

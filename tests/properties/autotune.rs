@@ -125,6 +125,10 @@ fn gains_hold_on_the_process_behind_the_record() {
         let Some(proved) = found.gains(record.interval_s(), &wanted) else { panic!("{seed}: {truth:?} {found:?}") };
         let peak = truth.sensitivity(&proved.gains);
         assert!(peak < 1.45, "{seed}: {peak} {truth:?} {found:?}");
+        // Twenty durations are the longest lag that is told from an integrator.
+        let duration_s = record.time_s()[record.samples() - 1];
+        let lags = found.models.iter().filter(|model| model.family == Family::FirstOrder);
+        assert!({ lags }.all(|model| model.parameters[2].value < 20.01 * duration_s), "{seed}: {found:?}");
         let dead = found.models.iter().map(|model| model.parameters[1]);
         let inside =
             dead.clone().any(|one| (one.value - truth.dead_s).abs() <= 3.0 * one.std + 0.1 * record.interval_s());
@@ -137,7 +141,7 @@ fn gains_hold_on_the_process_behind_the_record() {
 /// Under a load that wanders by a twentieth of the command the structure is found, and gains hold.
 #[test]
 fn a_wandering_load_is_no_structure() {
-    let (mut missed, mut another, mut refused) = (0, 0, 0);
+    let (mut missed, mut another, mut refused, mut correlated) = (0, 0, 0, 0);
     for seed in 0..16 {
         let (steady, family) = drawn(seed);
         let truth = Truth { wander: 0.05, ..steady };
@@ -147,6 +151,11 @@ fn a_wandering_load_is_no_structure() {
         let dead = found.models[0].parameters[1];
         missed += usize::from((dead.value - truth.dead_s).abs() > 3.0 * dead.std + 0.1 * record.interval_s());
         another += usize::from(!found.models.iter().any(|model| model.family == family));
+        // Errors about a constant load hang together, innovations do not.
+        let products: f64 = found.residuals.windows(2).map(|pair| pair[0] * pair[1]).sum();
+        let correlation = products / found.residuals.iter().map(|one| one * one).sum::<f64>();
+        assert!(correlation < 0.3, "{seed}: {correlation}");
+        correlated += usize::from(found.correlation > 0.5);
         let Some(proved) = found.gains(record.interval_s(), &GainsWanted::default()) else {
             refused += 1;
             continue;
