@@ -2,9 +2,9 @@
 
 use nalgebra::DVector;
 
-use super::projection::ProjectionProblem;
+use super::projection::{ProjectionProblem, autoregression};
 use super::response::HeldCommand;
-use super::search::{FOLLOWED, ONE, SearchScales, Searches, TWO};
+use super::search::{CONSTANT, FOLLOWED, ONE, SearchScales, Searches, TWO, WANDERING};
 use super::structure_fit::{StructureFit, distinct, fitted};
 use super::{Contradiction, LEAST_EXPLAINED, ProcessError, ProcessModel, ProcessRecord};
 use crate::experiment::Record;
@@ -59,39 +59,54 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
     // Mean time between changes: dead times beyond it are those of another change.
     let half_s = (changes[changes.len() - 1] - changes[0]) / (changes.len() - 1) as f64;
     let scale_s = 2.0 * half_s;
-    let mut problem = ProjectionProblem { command, output: record.output().to_vec(), first: 0 };
     let longest_s = half_s.min(duration_s / 3.0);
     // The command before the record acts up to the dead time, of whichever structure: readings so early do not count. Those that
     // do count may show a longer dead time.
-    let scales = SearchScales { scale_s, longest_s, followed: 1, quantum };
-    let mut searches = Searches::default();
-    loop {
-        searches = searches.pass(&problem, &ONE, scales);
-        let dead_s = searches.best().map(|(_, point)| point.times_s[0]).fold(0.0, f64::max);
-        let skip_s = (1.2 * dead_s + interval_s).min(duration_s / 3.0);
-        let first = problem.command.time_s().iter().position(|time| *time > skip_s).unwrap_or(0);
-        if first <= problem.first {
-            break;
+    let begun = |scales: SearchScales| {
+        let (command, output, rounding) = (command.clone(), record.output().to_vec(), quantum * quantum / 12.0);
+        let mut problem = ProjectionProblem { command, output, first: 0, autoregression: vec![], rounding };
+        let mut searches = Searches::default();
+        loop {
+            searches = searches.pass(&problem, &ONE, scales);
+            let dead_s = searches.best().map(|(_, point)| point.times_s[0]).fold(0.0, f64::max);
+            let skip_s = (1.2 * dead_s + interval_s).min(duration_s / 3.0);
+            let first = problem.command.time_s().iter().position(|time| *time > skip_s).unwrap_or(0);
+            if first <= problem.first {
+                return (problem, searches);
+            }
+            problem.first = first;
         }
-        problem.first = first;
-    }
-    let scales = SearchScales { followed: FOLLOWED, ..scales };
-    let searches = searches.pass(&problem, &[ONE.as_slice(), &TWO].concat(), scales);
-    let fits = searches.best().filter_map(|(family, point)| fitted(&problem, family, point, interval_s, quantum));
-    let mut found = distinct(fits.collect());
-    found.sort_by(|a, b| a.criterion.total_cmp(&b.criterion));
-    let no_answer = |left: f64| ProcessError::NoAnswer { left: left.min(1.0) };
-    let mean = problem.output[problem.first..].iter().sum::<f64>() / (samples - problem.first) as f64;
-    let variation: f64 = problem.output[problem.first..].iter().map(|y| (y - mean).powi(2)).sum();
-    // The command explains the output under a constant load, or the innovations where the load wanders.
-    let left = |fit: &StructureFit| fit.left.min(fit.plain.norm_squared() / variation.max(f64::MIN_POSITIVE));
-    let least = found.iter().map(left).fold(f64::INFINITY, f64::min);
-    found.retain(|fit| left(fit) < 1.0 - LEAST_EXPLAINED);
-    let best = found.first().ok_or(no_answer(least))?;
+    };
+    let explaining = |problem: &ProjectionProblem, before: &Searches, scales: SearchScales| {
+        let scales = SearchScales { followed: FOLLOWED, ..scales };
+        let searches = before.pass(problem, &[ONE.as_slice(), &TWO].concat(), scales);
+        let fits = searches.best().filter_map(|(family, point)| fitted(problem, family, point, interval_s));
+        let mut found = distinct(fits.collect());
+        found.sort_by(|a, b| a.criterion.total_cmp(&b.criterion));
+        let mean = problem.output[problem.first..].iter().sum::<f64>() / (samples - problem.first) as f64;
+        let variation: f64 = problem.output[problem.first..].iter().map(|y| (y - mean).powi(2)).sum();
+        // The command explains the output under a constant load, or the innovations where the load wanders.
+        let left = |fit: &StructureFit| fit.left.min(fit.plain.norm_squared() / variation.max(f64::MIN_POSITIVE));
+        let least = found.iter().map(left).fold(f64::INFINITY, f64::min);
+        found.retain(|fit| left(fit) < 1.0 - LEAST_EXPLAINED);
+        if found.is_empty() { Err(ProcessError::NoAnswer { left: least.min(1.0) }) } else { Ok((found, problem.first)) }
+    };
+    let wandering = SearchScales { scale_s, longest_s, followed: 1, walks: WANDERING };
+    let (problem, searches) = begun(wandering);
+    let (found, first) = explaining(&problem, &searches, wandering).or_else(|_| {
+        // Errors that no load makes, such as coarse steps of a slow output, leave all to a load that wanders: about a constant load they
+        // are an autoregression.
+        let constant = SearchScales { walks: CONSTANT, ..wandering };
+        let (mut problem, searches) = begun(constant);
+        let (white, _) = explaining(&problem, &searches, constant)?;
+        problem.autoregression = autoregression(&white[0].plain);
+        explaining(&problem, &searches, constant)
+    })?;
     let neighbours = |errors: &DVector<f64>| {
         let products: f64 = (1..errors.len()).map(|k| errors[k] * errors[k - 1]).sum();
         products / errors.norm_squared().max(f64::MIN_POSITIVE)
     };
+    let best = &found[0];
     let correlation = neighbours(&best.plain);
     let root_mean_square =
         |parts: &[f64]| (parts.iter().map(|part| part * part).sum::<f64>() / parts.len() as f64).sqrt();
@@ -122,7 +137,7 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
         residual,
         residuals,
         correlation,
-        samples: samples - problem.first,
+        samples: samples - first,
         changes,
     })
 }

@@ -7,15 +7,22 @@ use super::Family;
 use super::response::{HeldCommand, StateSpace};
 use super::wandering_load::InnovationFilter;
 
+/// Order of an autoregression of the residuals.
+const ORDER: usize = 2;
 /// Least share of a unit column's square that a normal matrix needs beside the other columns: rounding takes less.
 const RIDGE: f64 = 1e-12;
 
 /// Readings and command.
+#[derive(Clone)]
 pub(super) struct ProjectionProblem {
     pub(super) command: HeldCommand,
     pub(super) output: Vec<f64>,
     /// First reading that counts: the command before the record is not known.
     pub(super) first: usize,
+    /// Coefficients of `e_k = a_1 e_(k-1) + ... + noise` for errors that no load makes; none for those of a load that wanders.
+    pub(super) autoregression: Vec<f64>,
+    /// Least variance of a reading's white error, that of rounding.
+    pub(super) rounding: f64,
 }
 
 /// Values of the searched parameters.
@@ -69,7 +76,12 @@ impl ProjectionProblem {
 
     /// The filter for the errors at a point.
     pub(super) fn filter(&self, family: Family, point: &SearchPoint) -> InnovationFilter {
-        InnovationFilter::new(&Self::space(family, point), &self.command.time_s()[self.first..], point.walk)
+        let time_s = &self.command.time_s()[self.first..];
+        if self.autoregression.is_empty() {
+            InnovationFilter::new(&Self::space(family, point), time_s, point.walk)
+        } else {
+            InnovationFilter::autoregressive(&self.autoregression, time_s.len())
+        }
     }
 
     pub(super) fn projection(&self, family: Family, point: &SearchPoint) -> Option<Projection> {
@@ -94,19 +106,26 @@ impl ProjectionProblem {
         square.is_finite().then_some(Projection { square, undriven, log_variance, linear, innovations, plain })
     }
 
-    /// The square at a point, where it is a process, times the geometric mean of the innovations' variances: the least has the largest
-    /// likelihood.
-    pub(super) fn square(&self, family: Family, point: &SearchPoint) -> f64 {
+    /// Minus twice the log likelihood per innovation, up to a constant, at the likeliest variance of the white errors that is not below
+    /// rounding's: `ln v + square/(n v) - 1` and the mean logarithm of the innovations' variances over `v`.
+    pub(super) fn misfit(&self, square: f64, log_variance: f64) -> f64 {
+        let mean = square / (self.output.len() - self.first) as f64;
+        let variance = mean.max(self.rounding).max(f64::MIN_POSITIVE);
+        libm::log(variance) + mean / variance - 1.0 + log_variance
+    }
+
+    /// The exponential of the misfit at a point, where it is a process: a variance that falls as the square does.
+    pub(super) fn variance(&self, family: Family, point: &SearchPoint) -> f64 {
         let times_s = &point.times_s;
         let apart = family != Family::SecondOrder && family != Family::SecondOrderZero || times_s[2] < 0.9 * times_s[1];
         if times_s[0] < 0.0 || times_s[1..].iter().any(|time| !(*time > 0.0)) || !apart {
             return f64::INFINITY;
         }
-        self.fast_square(family, point)
+        self.fast_variance(family, point)
     }
 
     /// The same by normal equations, for the search.
-    fn fast_square(&self, family: Family, point: &SearchPoint) -> f64 {
+    fn fast_variance(&self, family: Family, point: &SearchPoint) -> f64 {
         let filter = self.filter(family, point);
         let whitened = |series: &[f64]| filter.whitened(&series[self.first..]);
         let columns: Vec<Vec<f64>> = self.columns(family, point).iter().map(|column| whitened(column)).collect();
@@ -119,7 +138,7 @@ impl ProjectionProblem {
         });
         let right = DVector::from_fn(count, |i, _| dot(&columns[i], &target) / sizes[i]);
         let Some(solved) = normal.cholesky().map(|factor| factor.solve(&right)) else { return f64::INFINITY };
-        (dot(&target, &target) - right.dot(&solved)).max(0.0) * libm::exp(filter.log_variance)
+        libm::exp(self.misfit((dot(&target, &target) - right.dot(&solved)).max(0.0), filter.log_variance))
     }
 }
 
@@ -128,4 +147,22 @@ pub(super) fn unit_columns(design: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
     let sizes: Vec<f64> = design.column_iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
     let scaled = DMatrix::from_fn(design.nrows(), design.ncols(), |i, j| design[(i, j)] / sizes[j]);
     (scaled, sizes)
+}
+
+/// Coefficients of an autoregression by least squares (the covariance method); none where the errors are as good as white.
+pub(super) fn autoregression(errors: &DVector<f64>) -> Vec<f64> {
+    let count = errors.len() - ORDER;
+    let design = DMatrix::from_fn(count, ORDER, |i, j| errors[i + ORDER - 1 - j]);
+    let target = DVector::from_fn(count, |i, _| errors[i + ORDER]);
+    let normal = design.transpose() * &design;
+    let Some(found) = normal.cholesky().map(|factor| factor.solve(&(design.transpose() * &target))) else {
+        return vec![];
+    };
+    let left = (&target - design * &found).norm_squared() / target.norm_squared().max(f64::MIN_POSITIVE);
+    // The Bayesian criterion for two coefficients.
+    if count as f64 * libm::log(left) + ORDER as f64 * libm::log(count as f64) < 0.0 {
+        found.iter().copied().collect()
+    } else {
+        vec![]
+    }
 }

@@ -6,10 +6,10 @@ use super::projection::{ProjectionProblem, SearchPoint};
 /// Starts: so many time constants, and so many dead times, on grids.
 const TIME_CONSTANTS: u32 = 10;
 const DEAD_TIMES: u32 = 12;
-/// Starts of the load's variance: what it gains in a period, over the variance of a reading's white error.
-const WALKS: [f64; 2] = [1e-4, 1.0];
-/// The same, at least: no reading shows less.
-const LEAST_WALK: f64 = 1e-6;
+/// Variance of the load: what it gains in a period, over the variance of a reading's white error. Starts of the search.
+pub(super) const WANDERING: &[f64] = &[1e-4, 1.0];
+/// The same, at least: no reading shows less, and the load counts as constant.
+pub(super) const CONSTANT: &[f64] = &[1e-6];
 /// A time constant of so many durations of the record is an integrator.
 const LONGEST: f64 = 20.0;
 /// Starts that are followed to the processes of a record.
@@ -30,8 +30,8 @@ pub(super) struct SearchScales {
     pub(super) longest_s: f64,
     /// Starts that are followed.
     pub(super) followed: usize,
-    /// The readings' rounding, output units.
-    pub(super) quantum: f64,
+    /// The load's variance: its starts, or its one value.
+    pub(super) walks: &'static [f64],
 }
 
 impl SearchScales {
@@ -41,7 +41,7 @@ impl SearchScales {
     }
 }
 
-/// The points with the least squares.
+/// The likeliest points.
 fn few(
     problem: &ProjectionProblem,
     family: Family,
@@ -49,7 +49,7 @@ fn few(
     points: impl IntoIterator<Item = SearchPoint>,
 ) -> Vec<SearchPoint> {
     let mut few: Vec<(f64, SearchPoint)> =
-        points.into_iter().map(|point| (problem.square(family, &point), point)).collect();
+        points.into_iter().map(|point| (problem.variance(family, &point), point)).collect();
     few.sort_by(|a, b| a.0.total_cmp(&b.0));
     few.truncate(followed);
     few.into_iter().map(|(_, point)| point).collect()
@@ -65,8 +65,12 @@ fn grid(family: Family, scales: SearchScales) -> Vec<SearchPoint> {
         Family::Integrator => vec![vec![delay]],
         _ => lags.iter().map(|lag| vec![delay, *lag]).collect(),
     });
-    let walks = WALKS.map(|walk| walk * scales.walk(family));
-    times.flat_map(|times_s| walks.map(|walk| SearchPoint { times_s: times_s.clone(), walk })).collect()
+    let walks: Vec<f64> = scales.walks.iter().map(|walk| walk * scales.walk(family)).collect();
+    times
+        .flat_map(|times_s| {
+            walks.iter().map(|walk| SearchPoint { times_s: times_s.clone(), walk: *walk }).collect::<Vec<_>>()
+        })
+        .collect()
 }
 
 /// Points with a second time constant about a point without it; the second lag stands for part of the dead time, or not.
@@ -89,25 +93,16 @@ fn descent(
     let interval_s = scales.scale_s / 400.0;
     let duration_s = problem.command.time_s().last().copied().unwrap_or(0.0);
     let count = (problem.output.len() - problem.first) as f64;
-    let (mut square, mut point) = (problem.square(family, &start), start);
+    let (mut least, mut point) = (problem.variance(family, &start), start);
     let times = point.times_s.len();
-    let least_walk = LEAST_WALK * scales.walk(family);
+    let least_walk = CONSTANT[0] * scales.walk(family);
     // Steps of the dead time in s, of the time constants and of the load's variance relative.
-    let mut step: Vec<f64> = (0..=times)
-        .map(|k| {
-            if k == 0 {
-                scales.longest_s / 10.0
-            } else if k < times {
-                0.5
-            } else {
-                2.0
-            }
-        })
-        .collect();
+    let wanders = usize::from(scales.walks.len() > 1);
+    let mut step = [vec![scales.longest_s / 10.0], vec![0.5; times - 1], vec![2.0; wanders]].concat();
     let finest = |k: usize| FINEST * if k == 0 { interval_s } else { 1.0 };
     for _ in 0..ROUNDS {
         let mut settled = true;
-        for k in 0..=times {
+        for k in 0..step.len() {
             let moved = |sign: f64| {
                 let mut other = point.clone();
                 if k == 0 {
@@ -125,21 +120,23 @@ fn descent(
                 });
                 core::iter::once(other).chain(turned)
             };
-            let around: Vec<(f64, SearchPoint)> =
-                [1.0, -1.0].into_iter().flat_map(moved).map(|other| (problem.square(family, &other), other)).collect();
-            let worst = around.iter().map(|(other, _)| *other).fold(square, f64::max);
-            let better = around.into_iter().filter(|(other, _)| *other < square).min_by(|a, b| a.0.total_cmp(&b.0));
-            // Twice the log likelihood falls by (square - least)/variance; rounding bounds the variance from below.
-            let variance = (square / count).max(scales.quantum * scales.quantum / 12.0);
+            let around: Vec<(f64, SearchPoint)> = [1.0, -1.0]
+                .into_iter()
+                .flat_map(moved)
+                .map(|other| (problem.variance(family, &other), other))
+                .collect();
+            let worst = around.iter().map(|(other, _)| *other).fold(least, f64::max);
+            let better = around.into_iter().filter(|(other, _)| *other < least).min_by(|a, b| a.0.total_cmp(&b.0));
             match better {
                 Some(found) => {
                     // A narrow valley is followed in many small gains.
                     settled = false;
-                    (square, point) = found;
+                    (least, point) = found;
                     step[k] *= 1.5;
                 }
                 None => {
-                    settled &= worst - square < SETTLED * variance || step[k] <= finest(k);
+                    // Twice the log likelihood falls by `count ln(worst/least)`.
+                    settled &= worst - least < SETTLED * least / count || step[k] <= finest(k);
                     step[k] *= 0.4;
                 }
             }
@@ -148,7 +145,7 @@ fn descent(
             break;
         }
     }
-    (square, point)
+    (least, point)
 }
 
 /// Ends of the searches, structure by structure, the best first.

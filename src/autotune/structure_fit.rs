@@ -55,17 +55,14 @@ pub(super) fn fitted(
     family: Family,
     point: &SearchPoint,
     interval_s: f64,
-    quantum: f64,
 ) -> Option<StructureFit> {
     let found = problem.projection(family, point)?;
     let (count, searched) = (found.innovations.len() as f64, point.times_s.len());
     let free = searched + found.linear.len();
     // Rounding leaves an error even where the residual shows none.
-    let least = quantum * quantum / 12.0;
-    let variance = (found.square / (count - free as f64).max(1.0)).max(least);
-    let likeliest = (found.square / count).max(least).max(f64::MIN_POSITIVE);
-    let misfit = count * (libm::log(likeliest) + found.log_variance);
-    let criterion = count * (libm::log(variance) + found.log_variance) + free as f64 * libm::log(count);
+    let variance = (found.square / (count - free as f64).max(1.0)).max(problem.rounding);
+    let misfit = count * problem.misfit(found.square, found.log_variance);
+    let criterion = misfit + free as f64 * libm::log(count);
     // Sensitivities of the innovations to all parameters: differences over half an interval bridge the kinks.
     let columns = problem.columns(family, point);
     let filter = problem.filter(family, point);

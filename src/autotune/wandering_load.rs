@@ -1,4 +1,4 @@
-//! Errors of the readings under a load that wanders: the innovations of a Kalman filter (de Jong, *Annals of Statistics* 19, 1991: initial
+//! Errors of the readings under a load that wanders, or in an autoregression: the innovations of a Kalman filter (de Jong, *Annals of Statistics* 19, 1991: initial
 //! states are coefficients of the regression, and the filter begins without their variance).
 
 use nalgebra::{Matrix3, Vector3};
@@ -54,6 +54,15 @@ impl InnovationFilter {
             steps.push(step);
         }
         Self { output, steps, log_variance }
+    }
+
+    /// Of errors `e_k = a_1 e_(k-1) + a_2 e_(k-2) + noise` for so many readings: the states are the two errors before.
+    pub(super) fn autoregressive(coefficients: &[f64], readings: usize) -> Self {
+        let output = Vector3::from_fn(|k, _| coefficients.get(k).copied().unwrap_or(0.0));
+        // The next error is its prediction and the innovation, which is the third state.
+        let transition = Matrix3::new(output[0], output[1], 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+        let step = FilterStep { std: 1.0, log_variance: 0.0, gain: Vector3::z(), transition };
+        Self { output, steps: vec![step; readings], log_variance: 0.0 }
     }
 
     /// Innovations of a series: values less their prediction from the values before, with the load as it shows in these.
