@@ -62,7 +62,8 @@ pub(super) fn fitted(
     // Rounding leaves an error even where the residual shows none.
     let variance = (found.square / (count - free as f64).max(1.0)).max(problem.rounding);
     let misfit = count * problem.misfit(found.square, found.log_variance);
-    let criterion = misfit + free as f64 * libm::log(count);
+    // The Bayesian criterion at the unbiased variance, `square/(n - p)` for `square/n`.
+    let criterion = misfit + count * libm::log(count / (count - free as f64).max(1.0)) + free as f64 * libm::log(count);
     // Sensitivities of the innovations to all parameters: differences over half an interval bridge the kinks.
     let columns = problem.columns(family, point);
     let filter = problem.filter(family, point);

@@ -5,7 +5,8 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 use selfosc::autotune::{
-    Actions, Family, FirstOrderProcess, GainsWanted, ProcessError, ProcessReadings, ProcessRecord, rules, ultimate,
+    Actions, Family, FirstOrderProcess, GainsWanted, ProcessError, ProcessReadings, ProcessRecord, Ranged, rules,
+    ultimate,
 };
 use selfosc::control::{Gains, LinearProcess};
 use selfosc::experiment::Record;
@@ -167,6 +168,43 @@ fn a_wandering_load_is_no_structure() {
         missed <= 1 && another <= 4 && refused <= 2,
         "{missed} missed, {another} another structure, {refused} without gains"
     );
+}
+
+/// A slow output in coarse steps, whose sensor has errors that hang together: no load makes these, and the process is found about a
+/// constant one.
+#[test]
+fn errors_of_a_sensor_that_hang_together_are_no_load() {
+    let (gain, dead_s, lag_s) = (0.16, 12, 150.0_f64);
+    for seed in 0..3 {
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        let input: Vec<f64> = (0..850)
+            .map(|t| {
+                if t < 20 {
+                    0.0
+                } else if t < 270 {
+                    100.0
+                } else if t < 560 {
+                    255.0
+                } else {
+                    50.0
+                }
+            })
+            .collect();
+        let (mut heated, mut error, mut output) = (0.0, 0.0, vec![]);
+        for t in 0..850_usize {
+            let sampled: f64 = StandardNormal.sample(&mut random);
+            error = 0.8 * error + 0.6 * 0.3 * sampled;
+            output.push(((70.0 + heated + error) / 0.58).round() * 0.58);
+            heated += (gain * input[t.saturating_sub(dead_s)] - heated) * (1.0 - (-1.0 / lag_s).exp());
+        }
+        let found = ProcessRecord::of(&Record::new((0..850).map(f64::from).collect(), output, input).unwrap()).unwrap();
+        let best = &found.models[0];
+        assert_eq!(best.family, Family::FirstOrder, "{seed}: {found:?}");
+        for (place, truth) in [(0, gain), (1, dead_s as f64), (2, lag_s)] {
+            let Ranged { value, std, .. } = best.parameters[place];
+            assert!((value - truth).abs() < 4.0 * std && std < 0.1 * truth, "{seed}: {value} {std} for {truth}");
+        }
+    }
 }
 
 /// The first-order process of at most 256 readings on board, in the number type `T`.
