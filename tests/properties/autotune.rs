@@ -164,6 +164,7 @@ fn a_wandering_load_is_no_structure() {
         let peak = truth.sensitivity(&proved.gains);
         assert!(peak < 1.45, "{seed}: {peak} {truth:?} {found:?}");
     }
+    assert!(correlated > 4, "{correlated} of 16 loads show");
     assert!(
         missed <= 1 && another <= 4 && refused <= 2,
         "{missed} missed, {another} another structure, {refused} without gains"
