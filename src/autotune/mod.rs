@@ -5,7 +5,7 @@
 //! | file | content |
 //! |---|---|
 //! | `process` | structures, parameters with intervals |
-//! | `response`, `wandering_load`, `projection` | answers to a logged command, errors under a load that wanders, and least squares over them |
+//! | `response`, `innovation_filter`, `projection` | answers to a logged command, innovations, and least squares over them |
 //! | `search`, `structure_fit`, `fit` | dead time and time constants; intervals and evidence of a structure; the processes of a record |
 //! | `gains` | the fastest gains whose sensitivity is proved for every process of the record's confidence set |
 //! | `curves` | open loop and answer to a load, of the likeliest process and at the corners of the set |
@@ -21,6 +21,8 @@ mod first_order;
 mod fit;
 #[cfg(feature = "std")]
 mod gains;
+#[cfg(feature = "std")]
+mod innovation_filter;
 mod on_board;
 #[cfg(feature = "std")]
 mod process;
@@ -34,8 +36,6 @@ mod rules;
 mod search;
 #[cfg(feature = "std")]
 mod structure_fit;
-#[cfg(feature = "std")]
-mod wandering_load;
 
 #[cfg(feature = "std")]
 pub use curves::LoopCurves;

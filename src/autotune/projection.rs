@@ -4,8 +4,8 @@
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::Family;
+use super::innovation_filter::InnovationFilter;
 use super::response::{HeldCommand, StateSpace};
-use super::wandering_load::InnovationFilter;
 
 /// Order of an autoregression of the residuals.
 const ORDER: usize = 2;
@@ -78,9 +78,9 @@ impl ProjectionProblem {
     pub(super) fn filter(&self, family: Family, point: &SearchPoint) -> InnovationFilter {
         let time_s = &self.command.time_s()[self.first..];
         if self.autoregression.is_empty() {
-            InnovationFilter::new(&Self::space(family, point), time_s, point.walk)
+            InnovationFilter::of_load(&Self::space(family, point), time_s, point.walk)
         } else {
-            InnovationFilter::autoregressive(&self.autoregression, time_s.len())
+            InnovationFilter::of_autoregression(&self.autoregression, time_s.len())
         }
     }
 

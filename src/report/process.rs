@@ -96,7 +96,7 @@ impl ProcessPage<'_> {
             pairs(input).windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]).collect();
         let command = Panel::new("time (s)", input_name).strip().with("command", Mark::Line, command);
         let title = "Record and model".to_owned();
-        let caption = "Above, readings and the likeliest process, each reading predicted from those before; below, the command. Look for swings that the line misses.";
+        let caption = "Above, each reading and its prediction by the likeliest process from the readings before; below, the command.";
         let figure = Figure { name: "record", title, caption, panels: vec![readings, command] };
         Some(Section { title: "Record".to_owned(), figures: vec![figure], ..Section::default() })
     }

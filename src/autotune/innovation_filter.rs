@@ -1,11 +1,11 @@
-//! Errors of the readings under a load that wanders, or in an autoregression: the innovations of a Kalman filter (de Jong, *Annals of Statistics* 19, 1991: initial
-//! states are coefficients of the regression, and the filter begins without their variance).
+//! Innovations of readings by a Kalman filter, under a load that wanders or for errors in an autoregression. Initial states are coefficients
+//! of the regression: the filter begins without their variance (de Jong, *Annals of Statistics* 19, 1991).
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::response::StateSpace;
 
-/// The filter of a process whose load takes a normal step at each reading, beside white errors of variance one.
+/// The filter of readings whose white errors have a variance of one.
 pub(super) struct InnovationFilter {
     output: Vector3<f64>,
     steps: Vec<FilterStep>,
@@ -16,20 +16,20 @@ pub(super) struct InnovationFilter {
 /// A gain that changes by less, relative, from reading to reading is that of all that follow at the same interval.
 const STEADY: f64 = 1e-12;
 
-/// Of one reading: its innovation's standard deviation and logarithm of the variance, gain, and transition to the next reading.
+/// Of one reading: standard deviation of its innovation, gain, and transition to the next reading.
 #[derive(Clone, Copy)]
 struct FilterStep {
     std: f64,
-    log_variance: f64,
     gain: Vector3<f64>,
     transition: Matrix3<f64>,
 }
 
 impl InnovationFilter {
-    /// For readings at these times; `walk` is the variance that the load gains in a second over the variance of a reading's white error.
-    pub(super) fn new(space: &StateSpace, time_s: &[f64], walk: f64) -> Self {
+    /// Of a process whose load takes a normal step at each of these times; `walk` is the variance that the load gains in a second over the
+    /// variance of a reading's white error.
+    pub(super) fn of_load(space: &StateSpace, time_s: &[f64], walk: f64) -> Self {
         let (output, mut transitions) = (space.output(), space.transitions());
-        let (mut covariance, mut log_variance) = (Matrix3::zeros(), 0.0);
+        let mut covariance = Matrix3::zeros();
         let mut steps: Vec<FilterStep> = Vec::with_capacity(time_s.len());
         let mut steady = false;
         for k in 0..time_s.len() {
@@ -47,21 +47,21 @@ impl InnovationFilter {
                     steady = last.is_some_and(|last| {
                         last.transition == transition && (last.gain - gain).amax() < STEADY * gain.amax()
                     });
-                    FilterStep { std: variance.sqrt(), log_variance: libm::log(variance), gain, transition }
+                    FilterStep { std: variance.sqrt(), gain, transition }
                 }
             };
-            log_variance += step.log_variance / time_s.len() as f64;
             steps.push(step);
         }
+        let log_variance = 2.0 * steps.iter().map(|step| libm::log(step.std)).sum::<f64>() / time_s.len() as f64;
         Self { output, steps, log_variance }
     }
 
     /// Of errors `e_k = a_1 e_(k-1) + a_2 e_(k-2) + noise` for so many readings: the states are the two errors before.
-    pub(super) fn autoregressive(coefficients: &[f64], readings: usize) -> Self {
+    pub(super) fn of_autoregression(coefficients: &[f64], readings: usize) -> Self {
         let output = Vector3::from_fn(|k, _| coefficients.get(k).copied().unwrap_or(0.0));
         // The next error is its prediction and the innovation, which is the third state.
         let transition = Matrix3::new(output[0], output[1], 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        let step = FilterStep { std: 1.0, log_variance: 0.0, gain: Vector3::z(), transition };
+        let step = FilterStep { std: 1.0, gain: Vector3::z(), transition };
         Self { output, steps: vec![step; readings], log_variance: 0.0 }
     }
 
@@ -122,7 +122,7 @@ mod tests {
                 let output = DVector::from(readings.clone());
                 [output.dot(&factor.solve(&output)), 2.0 * factor.l().diagonal().map(f64::ln).sum() / 64.0]
             };
-            let filter = InnovationFilter::new(&StateSpace::new(family, &lags_s), &time_s, walk);
+            let filter = InnovationFilter::of_load(&StateSpace::new(family, &lags_s), &time_s, walk);
             let square: f64 = filter.whitened(&readings).iter().map(|part| part * part).sum();
             let off = |[expected, log_variance]: [f64; 2]| {
                 (square / expected - 1.0).abs() + (filter.log_variance - log_variance).abs()
@@ -130,5 +130,21 @@ mod tests {
             assert!(off(dense(0)) < 1e-9, "{family:?}: {square} {} for {:?}", filter.log_variance, dense(0));
             assert!(off(dense(1)) > 1e-3, "{family:?}");
         }
+    }
+
+    /// Innovations of an autoregression are differences from its prediction; with the coefficients exchanged they are others.
+    #[test]
+    fn innovations_of_an_autoregression_are_its_noise() {
+        let noise: Vec<f64> = (0..40).map(|k| (1.3 * f64::from(k * k)).sin()).collect();
+        let mut errors = vec![0.0; 40];
+        for k in 0..40 {
+            let before = |back: usize| if k >= back { errors[k - back] } else { 0.0 };
+            errors[k] = 1.1 * before(1) - 0.4 * before(2) + noise[k];
+        }
+        let off = |coefficients: [f64; 2]| {
+            let whitened = InnovationFilter::of_autoregression(&coefficients, 40).whitened(&errors);
+            whitened.iter().zip(&noise).map(|(found, noise)| (found - noise).abs()).fold(0.0, f64::max)
+        };
+        assert!(off([1.1, -0.4]) < 1e-12 && off([-0.4, 1.1]) > 0.1);
     }
 }
