@@ -560,7 +560,7 @@ class RuleOfThumb(TypedDict):
 class LoopCurves(TypedDict):
     """Curves of the loop with proved gains: open loop ``[real, imaginary]`` and answer to a load of one command unit.
 
-    ``open_loop`` and ``load_step`` are those of the likeliest process; ``open_loops`` and ``load_step_range`` of the corners of all intervals.
+    ``open_loop`` and ``load_step`` are those of the likeliest process; ``open_loops`` and ``load_step_range`` of the ends of the confidence set.
     """
 
     omega_rad_s: list[float]

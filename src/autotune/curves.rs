@@ -1,7 +1,8 @@
-//! Curves of a loop: its open loop and its answer to a load, for the likeliest process and the corners of the set.
+//! Curves of a loop: its open loop and its answer to a load, for the likeliest process and the ends of the confidence set.
 
 use super::ProvedGains;
-use super::gains::{STEPS, STEPS_PER_PERIOD, load_step, ultimate};
+use super::gains::ultimate;
+use super::load_step::{STEPS, STEPS_PER_PERIOD, load_step};
 use crate::control::LinearProcess;
 
 /// Points of an open loop, and frequencies over the ultimate one between which they lie.
@@ -18,13 +19,13 @@ pub struct LoopCurves {
     pub omega_rad_s: Vec<f64>,
     /// Real and imaginary part of the likeliest process's open loop, for an output that rises with the command.
     pub open_loop: Vec<[f64; 2]>,
-    /// The same for the corners of every structure's set: all lie outside the circle of the sensitivity about -1.
+    /// The same for both ends of each axis of every structure's set, or the corners of its hull: all lie outside the circle of the sensitivity about -1.
     pub open_loops: Vec<Vec<[f64; 2]>>,
     /// Times after a step of the load, s.
     pub time_s: Vec<f64>,
     /// The likeliest process's output for a load of one command unit.
     pub load_step: Vec<f64>,
-    /// Least and largest output over the corners of every structure's set.
+    /// Least and largest output over the same processes.
     pub load_step_range: Vec<[f64; 2]>,
 }
 
@@ -36,7 +37,7 @@ impl ProvedGains {
         let nominal = sets.first()?.middle();
         let [_, ultimate_rad_s] = ultimate(&nominal)?;
         let period_s = core::f64::consts::TAU / ultimate_rad_s;
-        let corners: Vec<LinearProcess<f64>> = sets.iter().flat_map(|set| set.corners()).collect();
+        let ends: Vec<LinearProcess<f64>> = sets.iter().flat_map(|set| set.corners()).collect();
         let gains = &self.gains;
         let [low, high] = FREQUENCIES;
         let share = |k: u32| f64::from(k) / f64::from(POINTS - 1);
@@ -57,14 +58,14 @@ impl ProvedGains {
         };
         let nominal_step = answer(&nominal);
         let mut load_step_range: Vec<[f64; 2]> = nominal_step.iter().map(|(_, y)| [*y, *y]).collect();
-        for corner in &corners {
-            for (range, (_, y)) in load_step_range.iter_mut().zip(answer(corner)) {
+        for end in &ends {
+            for (range, (_, y)) in load_step_range.iter_mut().zip(answer(end)) {
                 *range = [range[0].min(y), range[1].max(y)];
             }
         }
         Some(LoopCurves {
             open_loop: curve(&nominal),
-            open_loops: corners.iter().map(curve).collect(),
+            open_loops: ends.iter().map(curve).collect(),
             time_s: nominal_step.iter().map(|(time_s, _)| *time_s).collect(),
             load_step: nominal_step.iter().map(|(_, y)| *y).collect(),
             load_step_range,

@@ -7,8 +7,9 @@
 //! | `process` | structures, parameters with intervals |
 //! | `response`, `innovation_filter`, `projection` | answers to a logged command, innovations, and least squares over them |
 //! | `search`, `structure_fit`, `fit` | dead time and time constants; intervals and evidence of a structure; the processes of a record |
-//! | `gains` | the fastest gains whose sensitivity is proved for every process of the record's confidence set |
-//! | `curves` | open loop and answer to a load, of the likeliest process and at the corners of the set |
+//! | `load_step` | a loop's answer to a step of the load, and its integral of the absolute error |
+//! | `exchange`, `gains` | the fastest gains for every process of the record's confidence set, and the proof of their sensitivity |
+//! | `curves` | open loop and answer to a load, of the likeliest process and at the ends of the confidence set |
 //! | `rules` | rules of thumb beside them |
 //! | `first_order`, `on_board` | on a controller: gains of bounded sensitivity, a first-order process from readings, without allocation |
 //! | `error` | why a record identifies no process |
@@ -16,6 +17,8 @@
 #[cfg(feature = "std")]
 mod curves;
 mod error;
+#[cfg(feature = "std")]
+mod exchange;
 mod first_order;
 #[cfg(feature = "std")]
 mod fit;
@@ -23,6 +26,8 @@ mod fit;
 mod gains;
 #[cfg(feature = "std")]
 mod innovation_filter;
+#[cfg(feature = "std")]
+mod load_step;
 mod on_board;
 #[cfg(feature = "std")]
 mod process;

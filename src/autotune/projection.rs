@@ -166,3 +166,23 @@ pub(super) fn autoregression(errors: &DVector<f64>) -> Vec<f64> {
         vec![]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::Record;
+
+    /// Minus twice the mean log density of normal errors of the likeliest variance, `ln v + mean/v - 1`, where that is not below rounding's.
+    #[test]
+    fn misfit_has_the_variance_of_rounding_at_least() {
+        let time_s = (0..32).map(f64::from).collect();
+        let input = (0..32).map(|k| f64::from(k / 4 % 2)).collect();
+        let record = Record::new(time_s, vec![0.0; 32], input).unwrap();
+        let (command, output) = (HeldCommand::of(&record), vec![0.0; 32]);
+        let problem = ProjectionProblem { command, output, first: 28, autoregression: vec![], rounding: 0.25 };
+        let close = |square: f64, expected: f64| (problem.misfit(square, 0.5) - 0.5 - expected).abs() < 1e-12;
+        assert!(close(8.0, 2f64.ln()) && close(1.0, 0.25_f64.ln()));
+        // Below rounding's the variance stays, and the mean square counts over it.
+        assert!(close(0.4, 0.25_f64.ln() + 0.1 / 0.25 - 1.0) && close(0.0, 0.25_f64.ln() - 1.0));
+    }
+}

@@ -8,6 +8,7 @@ mod exclusion;
 mod figures;
 mod high_frequency;
 mod shape;
+mod taylor;
 
 use super::process::{LinearProcess, PARAMETERS, constants};
 use super::{ControlError, Gains, RobustCriterion};
@@ -17,7 +18,7 @@ use figures::{AN_OCTAVE, FEW, Figures};
 pub use high_frequency::loop_gain_beyond;
 use shape::Shape;
 
-/// Processes whose parameters lie in intervals: in all of their box, or in a parallelepiped inside.
+/// Processes whose parameters lie in intervals: in all of their box, or in an ellipsoid inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProcessIntervals {
     process: LinearProcess<Interval>,
@@ -105,15 +106,21 @@ impl ProcessIntervals {
         Ok(Self { process, shape: Shape::Box })
     }
 
-    /// Every process at `centre + sum z_k directions_k` with all `|z_k| <= 1`, parameters in the order of [`LinearProcess::parts`], whose
-    /// inertia, times and delay are not negative. At most nine directions count.
+    /// Every process at `centre + sum z_k axes_k` with `sum z_k^2 <= 1`, parameters in the order of [`LinearProcess::parts`], whose
+    /// inertia, times and delay are not negative. At most five axes count.
     ///
     /// # Errors
     /// As [`new`](Self::new), for the intervals of the parameters.
-    pub fn along(centre: [f64; PARAMETERS], directions: &[[f64; PARAMETERS]]) -> Result<Self, ControlError> {
-        let directions = core::array::from_fn(|k| directions.get(k).copied().unwrap_or([0.0; PARAMETERS]));
-        let shape = Shape::Along { centre, directions };
+    pub fn ellipsoid(centre: [f64; PARAMETERS], axes: &[[f64; PARAMETERS]]) -> Result<Self, ControlError> {
+        let axes = core::array::from_fn(|k| axes.get(k).copied().unwrap_or([0.0; PARAMETERS]));
+        let shape = Shape::Ellipsoid { centre, axes };
         Ok(Self { shape, ..Self::new(shape.hull())? })
+    }
+
+    /// All processes of the intervals.
+    #[must_use]
+    pub fn hull(&self) -> Self {
+        Self { shape: Shape::Box, ..*self }
     }
 
     /// The intervals.
@@ -224,36 +231,52 @@ impl ProcessIntervals {
     /// The process in the middle.
     #[must_use]
     pub fn middle(&self) -> LinearProcess<f64> {
-        self.process_at([0.0; PARAMETERS])
+        self.nearest([0.0; PARAMETERS])
     }
 
-    /// The process at coordinates from -1 to 1, as many as directions or parameters; `None` where an inertia, a time or a delay is negative.
+    /// The process at coordinates from -1 to 1, as many as axes or parameters; `None` outside of an ellipsoid, and where an inertia, a time or
+    /// a delay is negative.
     #[must_use]
     pub fn at(&self, coordinates: [f64; PARAMETERS]) -> Option<LinearProcess<f64>> {
         let found = self.shape.at(&self.process, coordinates);
-        (found == self.process_at(coordinates)).then_some(found)
+        let wide = self.wide().into_iter().map(|k| Interval::point(coordinates[k])).collect::<Vec<_>>();
+        (!self.shape.misses(&wide) && found == self.nearest(coordinates)).then_some(found)
     }
 
     /// The same, where an inertia, a time or a delay that would be negative is zero.
-    fn process_at(&self, coordinates: [f64; PARAMETERS]) -> LinearProcess<f64> {
+    pub(crate) fn nearest(&self, coordinates: [f64; PARAMETERS]) -> LinearProcess<f64> {
         let parts = self.shape.at(&self.process, coordinates).parts();
         let not_negative = |k: usize| if shape::is_time_or_inertia(k) { parts[k].max(0.0) } else { parts[k] };
         LinearProcess::from_parts(core::array::from_fn(not_negative))
     }
 
-    /// The corners; what is negative there and must not be is zero.
+    /// Coordinates along which processes differ.
+    pub(crate) fn wide(&self) -> Vec<usize> {
+        let sides = self.shape.sides(&self.process);
+        (0..PARAMETERS).filter(|k| !sides[*k].is_point()).collect()
+    }
+
+    /// The corners of a box, or both ends of each axis of an ellipsoid; what is negative there and must not be is zero.
     #[must_use]
     pub fn corners(&self) -> Vec<LinearProcess<f64>> {
-        let sides = self.shape.sides(&self.process);
-        let wide: Vec<usize> = (0..PARAMETERS).filter(|k| !sides[*k].is_point()).collect();
-        let corner = |bits: usize| {
+        let wide = self.wide();
+        let count = match self.shape {
+            Shape::Box => 1 << wide.len(),
+            Shape::Ellipsoid { .. } => 2 * wide.len(),
+        };
+        let corner = |number: usize| {
             let mut coordinates = [0.0; PARAMETERS];
             for (place, &k) in wide.iter().enumerate() {
-                coordinates[k] = if bits >> place & 1 == 0 { -1.0 } else { 1.0 };
+                let sign = |up: bool| if up { 1.0 } else { -1.0 };
+                coordinates[k] = match self.shape {
+                    Shape::Box => sign(number >> place & 1 == 1),
+                    Shape::Ellipsoid { .. } if number / 2 == place => sign(number & 1 == 1),
+                    Shape::Ellipsoid { .. } => 0.0,
+                };
             }
-            self.process_at(coordinates)
+            self.nearest(coordinates)
         };
-        (0..1 << wide.len()).map(corner).collect()
+        (0..count).map(corner).collect()
     }
 
     /// Points of the box: its middle, and its corners.

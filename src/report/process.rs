@@ -113,7 +113,7 @@ impl ProcessPage<'_> {
         let all: Vec<(f64, f64)> = curves.open_loops.iter().flat_map(|one| near(one)).collect();
         let plane = Panel::new("real part", "imaginary part")
             .equal_axes()
-            .with("corners of the confidence set", Mark::Points, all)
+            .with("ends of the confidence set", Mark::Points, all)
             .with("likeliest process", Mark::Line, near(&curves.open_loop))
             .with("no process enters: the sensitivity's limit", Mark::Dashed, circle)
             .with("critical point", Mark::Dots, [(-1.0, 0.0)]);
@@ -123,7 +123,7 @@ impl ProcessPage<'_> {
             .strip()
             .with("likeliest process", Mark::Line, pairs(&mut curves.load_step.iter().copied()))
             .with(
-                "least and largest at the corners of the confidence set",
+                "least and largest at the ends of the confidence set",
                 Mark::Dashed,
                 pairs(&mut curves.load_step_range.iter().map(|r| r[0])),
             )

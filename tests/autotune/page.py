@@ -33,7 +33,7 @@ LIMITS = """
 - Gains are those for every process of the confidence set: where that is wide, the error is larger than the optimum of the known process.
 - The load of the fit walks at random; that of the records returns to its mean within twenty dead times.
 - Outside the structures of `autotune` the intervals of the gain are those of the nearest structure: half of them miss. Ultimate gain and
-  frequency, on which stability rests, are held.
+  frequency, on which stability rests, have wider ones, over the corners of all intervals.
 """
 
 

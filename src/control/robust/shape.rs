@@ -4,13 +4,16 @@ use crate::control::LinearProcess;
 use crate::control::process::PARAMETERS;
 use crate::numeric::{Interval, Real};
 
+/// Axes of an ellipsoid, at most.
+pub(super) const AXES: usize = 5;
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "a copy is nothing beside the boxes of a proof")]
 pub(super) enum Shape {
     /// The variables are the parameters.
     Box,
-    /// They are coordinates from -1 to 1: `centre + sum z_k directions_k`.
-    Along { centre: [f64; PARAMETERS], directions: [[f64; PARAMETERS]; PARAMETERS] },
+    /// They are coordinates with `sum z_k^2 <= 1`: `centre + sum z_k axes_k`.
+    Ellipsoid { centre: [f64; PARAMETERS], axes: [[f64; PARAMETERS]; AXES] },
 }
 
 impl Shape {
@@ -18,8 +21,8 @@ impl Shape {
     pub(super) fn sides(&self, process: &LinearProcess<Interval>) -> [Interval; PARAMETERS] {
         match self {
             Self::Box => process.parts(),
-            Self::Along { directions, .. } => directions.map(|direction| {
-                let there = direction.iter().any(|part| *part != 0.0);
+            Self::Ellipsoid { axes, .. } => core::array::from_fn(|k| {
+                let there = axes.get(k).is_some_and(|axis| axis.iter().any(|part| *part != 0.0));
                 if there { Interval::symmetric(1.0) } else { Interval::ZERO }
             }),
         }
@@ -28,23 +31,36 @@ impl Shape {
     pub(super) fn process<T: Real>(&self, variables: [T; PARAMETERS]) -> LinearProcess<T> {
         LinearProcess::from_parts(match self {
             Self::Box => variables,
-            Self::Along { centre, directions } => core::array::from_fn(|part| {
-                let moves = directions.iter().zip(variables).filter(|(direction, _)| direction[part] != 0.0);
-                moves.fold(T::from_f64(centre[part]), |sum, (direction, z)| sum + T::from_f64(direction[part]) * z)
+            Self::Ellipsoid { centre, axes } => core::array::from_fn(|part| {
+                let moves = axes.iter().zip(variables).filter(|(axis, _)| axis[part] != 0.0);
+                moves.fold(T::from_f64(centre[part]), |sum, (axis, z)| sum + T::from_f64(axis[part]) * z)
             }),
         })
     }
 
-    /// Intervals of the parameters of all processes: inertia, times and delay are not negative.
+    /// Intervals of the parameters of all processes of an ellipsoid: inertia, times and delay are not negative.
     pub(super) fn hull(&self) -> LinearProcess<Interval> {
-        let none = LinearProcess::from_parts([Interval::ZERO; PARAMETERS]);
-        let mut parts = self.process(self.sides(&none)).parts();
+        let mut parts = match self {
+            Self::Box => [Interval::ENTIRE; PARAMETERS],
+            // |sum z_k a_k| <= |z| |a|, by Cauchy and Schwarz.
+            Self::Ellipsoid { centre, axes } => core::array::from_fn(|part| {
+                let reach = length(&axes.map(|axis| Interval::point(axis[part])));
+                Interval::point(centre[part]) + Interval::symmetric(reach)
+            }),
+        };
         for (part, hull) in parts.iter_mut().enumerate() {
             if is_time_or_inertia(part) {
                 *hull = Interval::new(hull.lower().max(0.0), hull.upper()).unwrap_or(*hull);
             }
         }
         LinearProcess::from_parts(parts)
+    }
+
+    /// Whether a box of variables has no process of the set.
+    pub(super) fn misses(&self, variables: &[Interval]) -> bool {
+        let least = |side: &Interval| if side.contains(0.0) { Interval::ZERO } else { side.abs() };
+        let square = variables.iter().map(least).fold(Interval::ZERO, |sum, side| sum + side.square());
+        matches!(self, Self::Ellipsoid { .. }) && square.lower() > 1.0
     }
 
     /// The numbers at coordinates from -1 to 1.
@@ -58,9 +74,15 @@ impl Shape {
                     _ => (side.midpoint() + 0.5 * z * side.width()).clamp(side.lower(), side.upper()),
                 }
             })),
-            Self::Along { .. } => self.process(coordinates),
+            Self::Ellipsoid { .. } => self.process(coordinates),
         }
     }
+}
+
+/// An upper bound of a vector's length.
+pub(super) fn length(parts: &[Interval]) -> f64 {
+    let square = parts.iter().map(|part| Interval::point(part.magnitude()).square());
+    square.fold(Interval::ZERO, |sum, part| sum + part).sqrt().upper()
 }
 
 /// Inertia, the time constants but for the zero's, and the delay.
