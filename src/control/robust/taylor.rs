@@ -151,3 +151,74 @@ impl TaylorForm {
         among.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(AXES)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers between -1 and 1.
+    fn numbers() -> impl FnMut() -> f64 {
+        let mut k = 0.0_f64;
+        move || {
+            k += 1.0;
+            2.0 * (k * k * 0.618_033_988_749_895).fract() - 1.0
+        }
+    }
+
+    /// The least of `b x + x A x/2` that a local search finds within the sides and the ball.
+    fn least_met(of: impl Fn(&[f64; COUNT]) -> f64, sides: &[Interval; COUNT], start: [f64; COUNT]) -> f64 {
+        let (mut number, mut point, mut reach) = (numbers(), start, 1.0);
+        let mut least = of(&point);
+        for _ in 0..6000 {
+            let mut other: [f64; COUNT] =
+                core::array::from_fn(|k| (point[k] + reach * number()).clamp(sides[k].lower(), sides[k].upper()));
+            let size = other[..AXES].iter().map(|z| z * z).sum::<f64>().sqrt().max(1.0);
+            other[..AXES].iter_mut().for_each(|z| *z /= size);
+            if (0..COUNT).all(|k| sides[k].contains(other[k])) && of(&other) < least {
+                (least, point) = (of(&other), other);
+            } else {
+                reach = f64::max(0.997 * reach, 1e-6);
+            }
+        }
+        least
+    }
+
+    /// Of quadratic functions the bound is below the least that is met, and near: on the whole ball, on boxes within and across.
+    #[test]
+    fn least_is_below_all_that_is_met() {
+        let mut number = numbers();
+        for trial in 0..60_i32 {
+            let slopes: [f64; COUNT] = core::array::from_fn(|_| number());
+            let bend = 0.1 * f64::from(trial % 4);
+            let half: [[f64; COUNT]; COUNT] = core::array::from_fn(|_| core::array::from_fn(|_| bend * number()));
+            let curved = |k: usize, j: usize| 0.5 * (half[k][j] + half[j][k]);
+            let of = |x: &[f64; COUNT]| {
+                let row = |k: usize| slopes[k] + 0.5 * (0..COUNT).map(|j| curved(k, j) * x[j]).sum::<f64>();
+                (0..COUNT).map(|k| x[k] * row(k)).sum::<f64>()
+            };
+            let whole = trial % 3 == 0;
+            let sides: [Interval; COUNT] = core::array::from_fn(|k| {
+                let (middle, radius) = (0.3 * number(), 0.1 + 0.2 * number().abs());
+                match k {
+                    _ if k < AXES && whole => Interval::symmetric(1.0),
+                    _ if k < AXES => Interval::new(middle - radius, middle + radius).unwrap(),
+                    _ => Interval::symmetric(0.3 * radius),
+                }
+            });
+            let points = |x: [f64; COUNT]| x.map(Interval::point);
+            let slope_at = |x: [f64; COUNT]| {
+                points(core::array::from_fn(|k| slopes[k] + (0..COUNT).map(|j| curved(k, j) * x[j]).sum::<f64>()))
+            };
+            let mut centre = sides.map(|side| side.midpoint());
+            let (foot, pull) = lowest(&slope_at(centre), &sides);
+            centre[..AXES].copy_from_slice(&foot);
+            let curvature = core::array::from_fn(|k| points(core::array::from_fn(|j| curved(k, j))));
+            let form = TaylorForm { centre: points(centre), pull, sides, slopes: slope_at(centre), curvature };
+            let (bound, met) = (of(&centre) + form.least(true).lower(), least_met(of, &sides, centre));
+            assert!(bound <= met + 1e-9, "{trial}: {bound} {met}");
+            let slack = 0.02 + bend;
+            assert!(bound >= met - slack, "{trial}: {bound} {met}");
+            assert!((of(&centre) + form.least(false).lower()) >= bound - 1e-9, "{trial}");
+        }
+    }
+}
