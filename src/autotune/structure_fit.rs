@@ -135,12 +135,25 @@ pub(super) fn fitted(
     finite.then_some(StructureFit { family, criterion, misfit, model, innovations, plain, left })
 }
 
-/// Without structures that fit no better than a limit of theirs: their lag is at its bound, and they are that limit.
+/// Without structures that are a limit of theirs: they fit no better, their lag at its bound; or they are less likely, and their zero and
+/// a lag cancel within their errors.
 pub(super) fn distinct(mut fits: Vec<StructureFit>) -> Vec<StructureFit> {
-    let misfits: Vec<(Family, f64)> = fits.iter().map(|fit| (fit.family, fit.misfit)).collect();
+    let found: Vec<(Family, f64, f64)> = fits.iter().map(|fit| (fit.family, fit.misfit, fit.criterion)).collect();
     fits.retain(|fit| {
-        let limits = misfits.iter().filter(|(family, _)| fit.family.limits().contains(family));
-        limits.fold(f64::INFINITY, |least, limit| least.min(limit.1)) - fit.misfit > SETTLED
+        let limits = || found.iter().filter(|(family, ..)| fit.family.limits().contains(family));
+        let better = limits().all(|(_, misfit, _)| misfit - fit.misfit > SETTLED);
+        better && (!fit.cancels() || limits().all(|(.., criterion)| *criterion > fit.criterion))
     });
     fits
+}
+
+impl StructureFit {
+    /// Whether the interval of the zero reaches that of a lag.
+    fn cancels(&self) -> bool {
+        let reaches = |a: &Ranged, b: &Ranged| a.low <= b.high && b.low <= a.high;
+        match (self.family, &self.model.parameters[..]) {
+            (Family::SecondOrderZero, [_, _, slow, fast, zero]) => reaches(slow, zero) || reaches(fast, zero),
+            _ => false,
+        }
+    }
 }
