@@ -19,7 +19,8 @@ pub struct LoopCurves {
     pub omega_rad_s: Vec<f64>,
     /// Real and imaginary part of the likeliest process's open loop, for an output that rises with the command.
     pub open_loop: Vec<[f64; 2]>,
-    /// The same for both ends of each axis of every structure's set, or the corners of its hull: all lie outside the circle of the sensitivity about -1.
+    /// The same for both ends of each axis of every structure's set, or the corners of its hull: all lie outside the circle of the
+    /// sensitivity about -1.
     pub open_loops: Vec<Vec<[f64; 2]>>,
     /// Times after a step of the load, s.
     pub time_s: Vec<f64>,

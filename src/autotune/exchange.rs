@@ -14,7 +14,7 @@ const DERIVATIVE: [f64; 5] = [0.05, 0.08, 0.12, 0.17, 0.25];
 /// Octaves of frequency about the ultimate in which the sensitivity has its peak, and frequencies in each.
 const OCTAVES: [i32; 2] = [-5, 6];
 const AN_OCTAVE: i32 = 16;
-/// A turn between two frequencies, rad, across which a distance from -1 changes by more than an eighth of a unit loop's.
+/// A turn of `L` between two frequencies, rad: half of it away from the worst phase the real part is off by `|L| (1 - cos 0.25)`, 3 %.
 const FAR_RAD: f64 = 0.5;
 /// Rounds by which the worst process of a set is found.
 const ROUNDS: usize = 2;

@@ -45,8 +45,9 @@ pub struct ProvedGains {
     pub gains: Gains<f64>,
     /// No process of the sets has a larger sensitivity.
     pub sensitivity: f64,
-    /// The confidence set, structure by structure, the likeliest first: ellipsoids over which the range of any one figure, such as the
-    /// sensitivity under any gains, is its 95 % interval, as far as errors are normal and the figure is linear.
+    /// The confidence set, structure by structure, the likeliest first. Over an ellipsoid the range of any one figure, such as the
+    /// sensitivity under any gains, is its 95 % interval, as far as errors are normal and the figure is linear; it does not hold all
+    /// parameters at once with 95 %. Where a proof over the ellipsoids takes too long, all are their hulls.
     pub sets: Vec<ProcessIntervals>,
 }
 

@@ -157,3 +157,35 @@ impl StructureFit {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A structure whose parameters are known to a tenth.
+    fn fit(family: Family, criterion: f64, misfit: f64, parameters: &[f64]) -> StructureFit {
+        let ranged = |value: &f64| Ranged { value: *value, std: 0.05, low: value - 0.1, high: value + 0.1 };
+        let none = ranged(&0.0);
+        let parameters = parameters.iter().map(ranged).collect();
+        let model =
+            ProcessModel { family, weight: 0.0, parameters, coefficients: [none; 5], covariance: [[0.0; 5]; 5] };
+        let (innovations, plain) = (vec![], DVector::zeros(0));
+        StructureFit { family, criterion, misfit, model, innovations, plain, left: 0.0 }
+    }
+
+    /// A zero that cancels a lag within their errors goes where a limit is likelier; so does what fits no better than a limit.
+    #[test]
+    fn structures_that_are_a_limit_of_theirs_go() {
+        let stays = |criterion: f64, misfit: f64, [slow, fast, zero]: [f64; 3]| {
+            let simple = fit(Family::FirstOrder, 10.0, 5.0, &[1.0, 1.0, 3.0]);
+            let found =
+                distinct(vec![simple, fit(Family::SecondOrderZero, criterion, misfit, &[1.0, 1.0, slow, fast, zero])]);
+            assert_eq!(found[0].family, Family::FirstOrder);
+            found.len() == 2
+        };
+        assert!(stays(12.0, 4.0, [3.0, 1.0, 2.0]), "apart");
+        assert!(!stays(12.0, 4.0, [3.0, 1.0, 1.15]) && !stays(12.0, 4.0, [3.0, 1.0, 2.85]), "cancels");
+        assert!(stays(9.0, 4.0, [3.0, 1.0, 1.15]), "likelier");
+        assert!(!stays(12.0, 5.0, [3.0, 1.0, 2.0]), "fits no better");
+    }
+}

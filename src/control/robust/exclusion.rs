@@ -82,13 +82,13 @@ impl ProcessIntervals {
         let (mut open, mut boxes) = (vec![domain], 0);
         while let Some(at) = open.pop() {
             boxes += if ellipsoid { TAYLOR } else { 1 };
-            let (face, side) =
-                match if ellipsoid { self.on_ellipsoid(question, gains, at) } else { self.on_box(question, gains, at) }
-                {
-                    Verdict::Positive => continue,
-                    Verdict::Open(face, side) => (face, side),
-                    Verdict::Negative => return false,
-                };
+            let verdict =
+                if ellipsoid { self.on_ellipsoid(question, gains, at) } else { self.on_box(question, gains, at) };
+            let (face, side) = match verdict {
+                Verdict::Positive => continue,
+                Verdict::Negative => return false,
+                Verdict::Open(face, side) => (face, side),
+            };
             let large_enough = face[side].width() > SMALLEST * domain[side].width();
             if boxes >= BOXES || !large_enough {
                 return false;
