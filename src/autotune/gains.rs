@@ -88,15 +88,16 @@ impl ProcessModel {
         let found = correlation.symmetric_eigen();
         let lengths = found.eigenvalues.iter().map(|square| square.max(0.0).sqrt());
         let long = lengths.zip(found.eigenvectors.column_iter()).filter(|(length, _)| *length > FLAT);
-        let axes = long.map(|(length, axis)| {
+        let mut axes = [[0.0; 9]; 5];
+        for (axis, (length, direction)) in axes.iter_mut().zip(long) {
             let [alpha, drag, stiffness, zero_s, delay_s] =
-                core::array::from_fn(|k| NORMAL_95 * length * axis[k] * std[k]);
+                core::array::from_fn(|k| NORMAL_95 * length * direction[k] * std[k]);
             let none = 0.0;
-            [alpha, drag, stiffness, none, none, none, none, zero_s, delay_s]
-        });
+            *axis = [alpha, drag, stiffness, none, none, none, none, zero_s, delay_s];
+        }
         let mut process = self.process();
         process.delay_s += 0.5 * interval_s;
-        let found = ProcessIntervals::ellipsoid(process.parts(), &axes.collect::<Vec<_>>()).ok();
+        let found = ProcessIntervals::ellipsoid(process.parts(), axes).ok();
         found.filter(|found| found.process().drag.is_positive())
     }
 }

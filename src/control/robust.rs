@@ -107,14 +107,12 @@ impl ProcessIntervals {
     }
 
     /// Every process at `centre + sum z_k axes_k` with `sum z_k^2 <= 1`, parameters in the order of [`LinearProcess::parts`], whose
-    /// inertia, times and delay are not negative. At most five axes count.
+    /// inertia, times and delay are not negative. An axis may be zero.
     ///
     /// # Errors
     /// As [`new`](Self::new), for the intervals of the parameters.
-    pub fn ellipsoid(centre: [f64; PARAMETERS], axes: &[[f64; PARAMETERS]]) -> Result<Self, ControlError> {
-        let axes = core::array::from_fn(|k| axes.get(k).copied().unwrap_or([0.0; PARAMETERS]));
-        let shape = Shape::Ellipsoid { centre, axes };
-        Ok(Self { shape, ..Self::new(shape.hull())? })
+    pub fn ellipsoid(centre: [f64; PARAMETERS], axes: [[f64; PARAMETERS]; shape::AXES]) -> Result<Self, ControlError> {
+        Ok(Self { shape: Shape::Ellipsoid { centre, axes }, ..Self::new(shape::hull(centre, axes))? })
     }
 
     /// All processes of the intervals.

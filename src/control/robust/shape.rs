@@ -4,7 +4,7 @@ use crate::control::LinearProcess;
 use crate::control::process::PARAMETERS;
 use crate::numeric::{Interval, Real};
 
-/// Axes of an ellipsoid, at most.
+/// Axes of an ellipsoid, some of which may be zero.
 pub(super) const AXES: usize = 5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,24 +38,6 @@ impl Shape {
         })
     }
 
-    /// Intervals of the parameters of all processes of an ellipsoid: inertia, times and delay are not negative.
-    pub(super) fn hull(&self) -> LinearProcess<Interval> {
-        let mut parts = match self {
-            Self::Box => [Interval::ENTIRE; PARAMETERS],
-            // |sum z_k a_k| <= |z| |a|, by Cauchy and Schwarz.
-            Self::Ellipsoid { centre, axes } => core::array::from_fn(|part| {
-                let reach = length(&axes.map(|axis| Interval::point(axis[part])));
-                Interval::point(centre[part]) + Interval::symmetric(reach)
-            }),
-        };
-        for (part, hull) in parts.iter_mut().enumerate() {
-            if is_time_or_inertia(part) {
-                *hull = Interval::new(hull.lower().max(0.0), hull.upper()).unwrap_or(*hull);
-            }
-        }
-        LinearProcess::from_parts(parts)
-    }
-
     /// Whether a box of variables has no process of the set.
     pub(super) fn misses(&self, variables: &[Interval]) -> bool {
         let least = |side: &Interval| if side.contains(0.0) { Interval::ZERO } else { side.abs() };
@@ -77,6 +59,17 @@ impl Shape {
             Self::Ellipsoid { .. } => self.process(coordinates),
         }
     }
+}
+
+/// Intervals of the parameters of all processes of an ellipsoid: inertia, times and delay are not negative.
+pub(super) fn hull(centre: [f64; PARAMETERS], axes: [[f64; PARAMETERS]; AXES]) -> LinearProcess<Interval> {
+    LinearProcess::from_parts(core::array::from_fn(|part| {
+        // |sum z_k a_k| <= |z| |a|, by Cauchy and Schwarz.
+        let reach = length(&axes.map(|axis| Interval::point(axis[part])));
+        let hull = Interval::point(centre[part]) + Interval::symmetric(reach);
+        let least = if is_time_or_inertia(part) { hull.lower().max(0.0) } else { hull.lower() };
+        Interval::new(least, hull.upper()).unwrap_or(hull)
+    }))
 }
 
 /// An upper bound of a vector's length.

@@ -54,9 +54,9 @@ fn gains(integral: f64) -> Gains<f64> {
 }
 
 /// Axes of an ellipsoid of which each parameter is off by up to a share along all of them together.
-fn axes(parts: [f64; 9], signs: &[f64], share: f64) -> Vec<[f64; 9]> {
+fn axes(parts: [f64; 9], signs: &[f64], share: f64) -> [[f64; 9]; 5] {
     let axis = |k: usize| core::array::from_fn(|part| share * parts[part] * signs[(5 * part + k) % signs.len()]);
-    (0..5).map(axis).collect()
+    core::array::from_fn(axis)
 }
 
 proptest! {
@@ -71,7 +71,7 @@ proptest! {
     ) {
         let (alpha, drag, stiffness, zero_s, delay_s) = parts;
         let centre = [alpha, drag, stiffness, 0.0, 0.0, 0.05, 0.0, zero_s, delay_s];
-        let Ok(set) = ProcessIntervals::ellipsoid(centre, &axes(centre, &signs, share)) else { return Ok(()) };
+        let Ok(set) = ProcessIntervals::ellipsoid(centre, axes(centre, &signs, share)) else { return Ok(()) };
         let gains = gains(integral);
         let mut worst = 0.0_f64;
         for point in places.chunks(5) {
@@ -251,7 +251,7 @@ fn an_ellipsoid_is_proved_and_is_less_than_its_hull() {
     let stiff = [0.02, 0.0, 0.05, 0.0, 0.0, 0.02, 0.0, 0.0, 0.01];
     let late = [0.0, 0.0, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.03];
     let gains = gains(0.0);
-    let set = ProcessIntervals::ellipsoid(centre, &[heavy, stiff, late]).unwrap();
+    let set = ProcessIntervals::ellipsoid(centre, [heavy, stiff, late, [0.0; 9], [0.0; 9]]).unwrap();
     let at = |[x, y, z]: [f64; 3]| {
         let mut coordinates = [0.0; 9];
         coordinates[..3].copy_from_slice(&[x, y, z]);
@@ -272,7 +272,9 @@ fn an_ellipsoid_is_proved_and_is_less_than_its_hull() {
     assert!(!hull.all_have(&gains, RobustCriterion::Sensitivity(1.004 * largest)));
     // A corner of its cube is none of the ellipsoid, nor is what would be negative and cannot.
     assert!(at([0.7, 0.7, 0.7]).is_none() && at([0.57, 0.57, 0.57]).is_some());
-    let reaching = ProcessIntervals::ellipsoid(centre, &[[0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.0]]).unwrap();
+    let mut lag = [[0.0; 9]; 5];
+    lag[0][5] = 0.1;
+    let reaching = ProcessIntervals::ellipsoid(centre, lag).unwrap();
     assert_eq!(reaching.process().lag_s.lower(), 0.0);
     assert!(reaching.at([-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).is_none());
     assert!(reaching.corners().iter().all(|corner| corner.lag_s >= 0.0));
