@@ -16,8 +16,6 @@ const OCTAVES: [i32; 2] = [-5, 6];
 const AN_OCTAVE: i32 = 16;
 /// A turn of `L` between two frequencies, rad: half of it away from the worst phase the real part is off by `|L| (1 - cos 0.25)`, 3 %.
 const FAR_RAD: f64 = 0.5;
-/// Rounds by which the worst process of a set is found.
-const ROUNDS: usize = 2;
 
 /// Gains in the ideal form: gain, integral time, derivative time.
 pub(super) fn ideal([gain, integral_s, derivative_s]: [f64; 3], filter: f64) -> Option<Gains<f64>> {
@@ -70,29 +68,6 @@ impl<'a> GainExchange<'a> {
         self.peak(process, gains).0 <= (1.0 - room) * self.wanted.sensitivity
     }
 
-    /// The process of a set that is the most sensitive to first order: at the end of the gradient of the sensitivity at its peak.
-    fn worst(&self, set: &ProcessIntervals, gains: &Gains<f64>) -> LinearProcess<f64> {
-        let (wide, mut at) = (set.wide(), Default::default());
-        for _ in 0..ROUNDS {
-            let (_, omega) = self.peak(&set.nearest(at), gains);
-            let slope = |k: &usize| {
-                let sensitivity = |step: f64| {
-                    let mut beside = at;
-                    beside[*k] += step;
-                    let [re, im] = set.nearest(beside).open_loop_at(gains, &[omega])[0];
-                    libm::hypot(1.0 + re, im).recip()
-                };
-                sensitivity(0.5) - sensitivity(-0.5)
-            };
-            let slopes: Vec<f64> = wide.iter().map(slope).collect();
-            let length = slopes.iter().map(|slope| slope * slope).sum::<f64>().sqrt();
-            for (k, slope) in wide.iter().zip(slopes) {
-                at[*k] = if length > 0.0 { slope / length } else { 0.0 };
-            }
-        }
-        set.nearest(at)
-    }
-
     /// The largest gain above `least` at these times with which the active processes meet the limit, up to rounding.
     fn largest_gain(&self, [integral_s, derivative_s]: [f64; 2], least: f64) -> Option<f64> {
         let meets = |gain: f64| {
@@ -120,8 +95,7 @@ impl<'a> GainExchange<'a> {
             if !(error < best) {
                 return None;
             }
-            let mut worst =
-                self.sets.iter().flat_map(|set| core::iter::once(self.worst(set, &gains)).chain(set.corners()));
+            let mut worst = self.sets.iter().flat_map(ProcessIntervals::corners);
             match worst.find(|process| !self.meets(process, &gains, 0.5 * ROOM)) {
                 Some(process) => self.active.insert(0, process),
                 None => return Some((found, error)),
