@@ -1,7 +1,7 @@
 //! Innovations of readings by a Kalman filter, under a load that wanders or for errors in an autoregression. Initial states are coefficients
 //! of the regression: the filter begins without their variance (de Jong, *Annals of Statistics* 19, 1991).
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::response::StateSpace;
 
@@ -75,9 +75,19 @@ impl InnovationFilter {
         })
     }
 
-    /// The same over their standard deviations.
-    pub(super) fn whitened(&self, series: &[f64]) -> Vec<f64> {
-        self.innovations(series).zip(&self.steps).map(|(innovation, step)| innovation / step.std).collect()
+    /// The same of several series, over their standard deviations.
+    pub(super) fn whitened(&self, series: &[&[f64]]) -> Vec<DVector<f64>> {
+        let mut states = vec![Vector3::zeros(); series.len()];
+        let mut whitened = vec![DVector::zeros(self.steps.len()); series.len()];
+        for (k, step) in self.steps.iter().enumerate() {
+            let by_std = step.std.recip();
+            for ((one, state), whitened) in series.iter().zip(&mut states).zip(&mut whitened) {
+                let innovation = one[k] - self.output.dot(state);
+                *state = step.transition * (*state + step.gain * innovation);
+                whitened[k] = innovation * by_std;
+            }
+        }
+        whitened
     }
 }
 
@@ -123,7 +133,7 @@ mod tests {
                 [output.dot(&factor.solve(&output)), 2.0 * factor.l().diagonal().map(f64::ln).sum() / 64.0]
             };
             let filter = InnovationFilter::of_load(&StateSpace::new(family, &lags_s), &time_s, walk);
-            let square: f64 = filter.whitened(&readings).iter().map(|part| part * part).sum();
+            let square = filter.whitened(&[&readings])[0].norm_squared();
             let off = |[expected, log_variance]: [f64; 2]| {
                 (square / expected - 1.0).abs() + (filter.log_variance - log_variance).abs()
             };
@@ -142,8 +152,8 @@ mod tests {
             errors[k] = 1.1 * before(1) - 0.4 * before(2) + noise[k];
         }
         let off = |coefficients: [f64; 2]| {
-            let whitened = InnovationFilter::of_autoregression(&coefficients, 40).whitened(&errors);
-            whitened.iter().zip(&noise).map(|(found, noise)| (found - noise).abs()).fold(0.0, f64::max)
+            let whitened = InnovationFilter::of_autoregression(&coefficients, 40).whitened(&[&errors]);
+            whitened[0].iter().zip(&noise).map(|(found, noise)| (found - noise).abs()).fold(0.0, f64::max)
         };
         assert!(off([1.1, -0.4]) < 1e-12 && off([-0.4, 1.1]) > 0.1);
     }

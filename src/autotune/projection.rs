@@ -87,7 +87,7 @@ impl ProjectionProblem {
     pub(super) fn projection(&self, family: Family, point: &SearchPoint) -> Option<Projection> {
         let (columns, filter, space) =
             (self.columns(family, point), self.filter(family, point), Self::space(family, point));
-        let whitened = |series: &[f64]| DVector::from(filter.whitened(&series[self.first..]));
+        let whitened = |series: &[f64]| filter.whitened(&[&series[self.first..]]).swap_remove(0);
         let design = DMatrix::from_columns(&columns.iter().map(|column| whitened(column)).collect::<Vec<_>>());
         let target = whitened(&self.output);
         let (scaled, sizes) = unit_columns(&design);
@@ -127,18 +127,18 @@ impl ProjectionProblem {
     /// The same by normal equations, for the search.
     fn fast_variance(&self, family: Family, point: &SearchPoint) -> f64 {
         let filter = self.filter(family, point);
-        let whitened = |series: &[f64]| filter.whitened(&series[self.first..]);
-        let columns: Vec<Vec<f64>> = self.columns(family, point).iter().map(|column| whitened(column)).collect();
-        let target = whitened(&self.output);
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let columns = self.columns(family, point);
+        let series: Vec<&[f64]> = columns.iter().chain([&self.output]).map(|series| &series[self.first..]).collect();
+        let mut columns = filter.whitened(&series);
+        let target = columns.pop().unwrap_or_default();
         let count = columns.len();
-        let sizes: Vec<f64> = columns.iter().map(|c| dot(c, c).sqrt().max(f64::MIN_POSITIVE)).collect();
+        let sizes: Vec<f64> = columns.iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
         let normal = DMatrix::from_fn(count, count, |i, j| {
-            if i == j { 1.0 + RIDGE } else { dot(&columns[i], &columns[j]) / (sizes[i] * sizes[j]) }
+            if i == j { 1.0 + RIDGE } else { columns[i].dot(&columns[j]) / (sizes[i] * sizes[j]) }
         });
-        let right = DVector::from_fn(count, |i, _| dot(&columns[i], &target) / sizes[i]);
+        let right = DVector::from_fn(count, |i, _| columns[i].dot(&target) / sizes[i]);
         let Some(solved) = normal.cholesky().map(|factor| factor.solve(&right)) else { return f64::INFINITY };
-        libm::exp(self.misfit((dot(&target, &target) - right.dot(&solved)).max(0.0), filter.log_variance))
+        libm::exp(self.misfit((target.norm_squared() - right.dot(&solved)).max(0.0), filter.log_variance))
     }
 }
 

@@ -67,7 +67,7 @@ pub(super) fn fitted(
     // Sensitivities of the innovations to all parameters: differences over half an interval bridge the kinks.
     let columns = problem.columns(family, point);
     let filter = problem.filter(family, point);
-    let whitened = |series: &[f64]| DVector::from(filter.whitened(&series[problem.first..]));
+    let whitened = |series: &[f64]| filter.whitened(&[&series[problem.first..]]).swap_remove(0);
     let linear: Vec<f64> = found.linear.iter().copied().collect();
     let answer = |times_s: Vec<f64>| -> DVector<f64> {
         let columns = problem.columns(family, &SearchPoint { times_s, walk: point.walk });
