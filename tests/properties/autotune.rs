@@ -313,6 +313,66 @@ fn the_ultimate_point_is_critical() {
     assert!(rules(&model.process()).iter().any(|rule| rule.sensitivity.is_some_and(|peak| peak > 2.0)));
 }
 
+/// The ranges of ultimate gain and frequency are those over all corners of the coefficients' intervals.
+#[test]
+fn the_ultimate_ranges_are_those_of_the_corners() {
+    let mut of_a_corner = 0;
+    for seed in [8, 9, 11] {
+        let (truth, _) = drawn(seed);
+        let found = ProcessRecord::of(&truth.record(0.0, 2e-3 * truth.gain, seed)).unwrap();
+        let ranges = found.ultimate().unwrap();
+        let mut least = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        for (model, corner) in found.models.iter().flat_map(|model| (0..32).map(move |corner| (model, corner))) {
+            let at = |k: usize| {
+                let part = model.coefficients[k];
+                if corner >> k & 1 == 1 { part.high } else { part.low }
+            };
+            let [alpha, delay_s] = [at(0).max(0.0), at(4).max(0.0)];
+            let process =
+                LinearProcess { alpha, drag: at(1), stiffness: at(2), zero_s: at(3), delay_s, ..model.process() };
+            for (k, value) in ultimate(&process).into_iter().flatten().enumerate() {
+                least[0][k] = least[0][k].min(value);
+                least[1][k] = least[1][k].max(value);
+            }
+        }
+        for (k, range) in ranges.into_iter().enumerate() {
+            let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-6;
+            assert!(
+                close(range.lower(), least[0][k]) && close(range.upper(), least[1][k]),
+                "{seed} {k}: {range:?} {least:?}"
+            );
+            of_a_corner += usize::from(range.width() > 0.02 * range.upper());
+        }
+    }
+    assert!(of_a_corner > 2, "{of_a_corner}");
+}
+
+/// Errors over their standard deviations have a mean square of one, under a constant load and one that wanders: of stiffness, dead time
+/// and gain.
+#[test]
+fn errors_are_as_large_as_they_are_said_to_be() {
+    for wander in [0.0, 0.05] {
+        let (mut squares, mut count) = ([0.0; 3], 0.0);
+        for seed in 0..24 {
+            let (steady, _) = drawn(4 * seed);
+            let truth = Truth { wander, ..steady };
+            let found = ProcessRecord::of(&truth.record(0.0, 1e-3 * truth.gain, seed)).unwrap();
+            let Some(model) = found.models.iter().find(|model| model.family == Family::FirstOrder) else { continue };
+            count += 1.0;
+            for (square, (part, value)) in squares.iter_mut().zip([
+                (model.coefficients[2], 1.0 / truth.gain),
+                (model.parameters[1], truth.dead_s),
+                (model.parameters[0], truth.gain),
+            ]) {
+                *square += ((part.value - value) / part.std).powi(2);
+            }
+        }
+        // Of 24, 99.8 % are between 0.35 and 2.
+        let means = squares.map(|square| square / count);
+        assert!(count > 20.0 && means.iter().all(|mean| (0.35..2.0).contains(mean)), "{wander}: {means:?} of {count}");
+    }
+}
+
 /// Records that tell no process are refused by name.
 #[test]
 fn records_that_tell_nothing() {
