@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::projection::{ProjectionProblem, autoregression};
 use super::response::HeldCommand;
 use super::search::{CONSTANT, FOLLOWED, ONE, SearchScales, Searches, TWO, WANDERING};
-use super::structure_fit::{distinct, fitted};
+use super::structure_fit::{StructureFit, distinct, fitted};
 use super::{Contradiction, LEAST_EXPLAINED, ProcessError, ProcessModel, ProcessRecord};
 use crate::experiment::Record;
 use crate::identify::NORMAL_95;
@@ -83,8 +83,12 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
         let fits = searches.best().filter_map(|(family, point)| fitted(problem, family, point, interval_s));
         let mut found = distinct(fits.collect());
         found.sort_by(|a, b| a.criterion.total_cmp(&b.criterion));
-        let least = found.iter().map(|fit| fit.left).fold(f64::INFINITY, f64::min);
-        found.retain(|fit| fit.left < 1.0 - LEAST_EXPLAINED);
+        let mean = problem.output[problem.first..].iter().sum::<f64>() / (samples - problem.first) as f64;
+        let variation: f64 = problem.output[problem.first..].iter().map(|y| (y - mean).powi(2)).sum();
+        // The command explains the output under a constant load, or the innovations where the load wanders.
+        let left = |fit: &StructureFit| fit.left.min(fit.plain.norm_squared() / variation.max(f64::MIN_POSITIVE));
+        let least = found.iter().map(left).fold(f64::INFINITY, f64::min);
+        found.retain(|fit| left(fit) < 1.0 - LEAST_EXPLAINED);
         if found.is_empty() { Err(ProcessError::NoAnswer { left: least.min(1.0) }) } else { Ok((found, problem.first)) }
     };
     let wandering = SearchScales { scale_s, longest_s, followed: 1, walks: WANDERING };

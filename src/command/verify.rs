@@ -1,10 +1,13 @@
 //! `selfosc verify`: the claims, checked.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::mpsc::{Sender, channel};
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::error::Given;
@@ -95,7 +98,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     Ok(if expected { written.unwrap_or(Outcome::Done) } else { Outcome::No })
 }
 
-/// Checks the claims in turn; for people, prints a claim's lines when it ends.
+/// Checks the claims side by side; for people, prints a claim's lines when it and those before it have ended.
 fn check(
     chosen: &[&'static Claim],
     budget: Budget,
@@ -106,18 +109,31 @@ fn check(
     let progress = if arguments.progress { ProgressBar::new(chosen.len() as u64) } else { ProgressBar::hidden() };
     progress.set_style(ProgressStyle::with_template("{pos}/{len} {msg}").unwrap_or(ProgressStyle::default_bar()));
     let mut findings = Vec::with_capacity(chosen.len());
-    for &claim in chosen {
-        progress.set_message(claim.id);
-        let finding = claim.check(budget);
-        if !arguments.json {
-            progress.suspend(|| lines(claim, &finding, output))?;
-            output.flush()?;
+    let (ended, endings) = channel();
+    std::thread::scope(|scope| {
+        scope.spawn(move || {
+            let check =
+                |ended: &mut Sender<_>, (place, claim): (usize, &&Claim)| ended.send((place, claim.check(budget)));
+            // An error means that nobody listens any more, as where the output was closed.
+            chosen.par_iter().enumerate().try_for_each_with(ended, check)
+        });
+        let mut waiting = BTreeMap::new();
+        for (place, finding) in endings {
+            waiting.insert(place, finding);
+            progress.set_message(chosen[place].id);
+            progress.inc(1);
+            while let Some(finding) = waiting.remove(&findings.len()) {
+                let claim = chosen[findings.len()];
+                if !arguments.json {
+                    progress.suspend(|| lines(claim, &finding, output))?;
+                    output.flush()?;
+                }
+                findings.push((claim, finding));
+            }
         }
-        findings.push((claim, finding));
-        progress.inc(1);
-    }
-    progress.finish_and_clear();
-    Ok(findings)
+        progress.finish_and_clear();
+        Ok(findings)
+    })
 }
 
 fn chosen(ids: &[String]) -> Result<Vec<&'static Claim>, CommandError> {

@@ -133,13 +133,13 @@ fn coverage(law: DragLaw, command: Command, quantum: f64, noise: f64, experiment
 const COVERED: [Command; 5] = [Command::Rudder, Command::FreeRudder, Command::Curve, Command::Held, Command::Straight];
 const SENSORS: [(f64, f64); 2] = [(0.0, 0.003), (0.0175, 0.0)];
 
-/// A 95 % interval misses more than six of 32 or 48 with a probability below 2 %.
+/// A 95 % interval misses more than three of 16 with a probability below 1 %.
 #[test]
 fn intervals_cover_whatever_the_command_did_between_samples() {
     for law in DragLaw::ALL {
         for command in COVERED {
             for (quantum, noise) in SENSORS {
-                let (held, worst, ways) = coverage(law, command, quantum, noise, 16);
+                let (held, worst, ways) = coverage(law, command, quantum, noise, 8);
                 assert!(held >= 0.8, "{law:?} {command:?} {quantum} {noise}: {held}, {worst}, {ways:?}");
                 let allowed = if law == DragLaw::Mixed { tolerance::MOVED_MIXED } else { tolerance::MOVED };
                 assert!(worst < allowed, "{law:?} {command:?} {quantum} {noise}: {held}, {worst}, {ways:?}");

@@ -379,24 +379,27 @@ fn an_interrupt_leaves_nothing_behind() {
     let mut state = 51;
     let mut interrupted = 0;
     let calls = [
-        "reproduce --only table2 table3 table4 audit --out OUT",
+        "reproduce --only table2 table3 table4 --out OUT",
         "man OUT",
         "identify a.csv b.csv --delay 0 --report OUT/report.html",
         "verify --claim lemma-1 --cases 1 --certificates OUT",
     ];
+    let command = |call: &str, into: &tempfile::TempDir| {
+        let mut command = selfosc(&folder);
+        let call = call.replace("OUT", into.path().to_str().unwrap());
+        command.args(call.split(' ')).stdout(Stdio::null()).stderr(Stdio::piped());
+        command
+    };
+    // How long it takes, that the moment falls inside.
+    let lasts_us = calls.map(|call| {
+        let begun = std::time::Instant::now();
+        assert!(command(call, &tempfile::tempdir().unwrap()).status().unwrap().success(), "{call}");
+        u64::try_from(begun.elapsed().as_micros()).unwrap()
+    });
     for round in 0..20 {
         let into = tempfile::tempdir().unwrap();
-        let call = calls[round % calls.len()].replace("OUT", into.path().to_str().unwrap());
-        let mut command = selfosc(&folder);
-        command.args(call.split(' ')).stdout(Stdio::null()).stderr(Stdio::piped());
-        // How long it takes, that the moment falls inside.
-        let begun = std::time::Instant::now();
-        assert!(command.status().unwrap().success(), "{call}");
-        let lasts_us = u64::try_from(begun.elapsed().as_micros()).unwrap();
-        for entry in fs::read_dir(into.path()).unwrap() {
-            fs::remove_file(entry.unwrap().path()).unwrap();
-        }
-        let child = command.spawn().unwrap();
+        let (call, lasts_us) = (calls[round % calls.len()], lasts_us[round % calls.len()]);
+        let child = command(call, &into).spawn().unwrap();
         std::thread::sleep(Duration::from_micros(drawn(&mut state) % lasts_us));
         let signal = ["INT", "TERM", "HUP"][round % 3];
         Command::new("kill").args([&format!("-{signal}"), &child.id().to_string()]).status().unwrap();

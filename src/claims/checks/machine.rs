@@ -2,7 +2,9 @@
 //!
 //! The machine is explored with every answer of an observer of cycles at every sample: a superset of all runs.
 
-use std::collections::{HashSet, VecDeque};
+use std::collections::VecDeque;
+
+use foldhash::{HashSet, HashSetExt};
 
 use super::{ClaimPart, Evidence, Verdict, Witness};
 use crate::on_board::{Coordinate, Key, Observation, Observer, Phase, Protocol, Supervisor};
@@ -265,7 +267,8 @@ fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict
     };
     // State, its predecessor, and the event between.
     let mut states: Vec<(Machine, usize, MachineEvent)> = vec![(start, 0, MachineEvent::Abort)];
-    let mut visited = HashSet::from([start.key()]);
+    let mut visited = HashSet::new();
+    visited.insert(start.key());
     let mut waiting = VecDeque::from([0]);
     let mut successors = Vec::new();
     while let Some(index) = waiting.pop_front() {
