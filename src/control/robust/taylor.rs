@@ -34,48 +34,6 @@ impl ProcessIntervals {
         self.excess(question, gains, all)
     }
 
-    /// Second derivatives over a box.
-    fn curvature(
-        &self,
-        question: Question,
-        gains: &Gains<f64>,
-        sides: [Interval; COUNT],
-    ) -> [[Interval; COUNT]; COUNT] {
-        let wide: Vec<usize> = (0..COUNT).filter(|k| !sides[*k].is_point()).collect();
-        // Work grows with the square of the number of variables.
-        match wide[..] {
-            [a] => self.curvature_along(question, gains, sides, [a]),
-            [a, b] => self.curvature_along(question, gains, sides, [a, b]),
-            [a, b, c] => self.curvature_along(question, gains, sides, [a, b, c]),
-            [a, b, c, d] => self.curvature_along(question, gains, sides, [a, b, c, d]),
-            [a, b, c, d, e] => self.curvature_along(question, gains, sides, [a, b, c, d, e]),
-            [a, b, c, d, e, f] => self.curvature_along(question, gains, sides, [a, b, c, d, e, f]),
-            _ => self.curvature_along(question, gains, sides, core::array::from_fn::<_, COUNT, _>(|k| k)),
-        }
-    }
-
-    /// Those in some of the variables; zero in the others.
-    fn curvature_along<const N: usize>(
-        &self,
-        question: Question,
-        gains: &Gains<f64>,
-        sides: [Interval; COUNT],
-        along: [usize; N],
-    ) -> [[Interval; COUNT]; COUNT] {
-        let mut variables = sides.map(|side| Gradient::constant(Gradient::constant(side)));
-        for (k, variable) in along.into_iter().zip(Gradient::variables(Gradient::variables(along.map(|k| sides[k])))) {
-            variables[k] = variable;
-        }
-        let curved: [Gradient<Interval, N>; N] = self.excess_of(question, gains, variables).slopes();
-        let mut all = [[Interval::ZERO; COUNT]; COUNT];
-        for (k, slope) in along.into_iter().zip(curved) {
-            for (j, second) in along.into_iter().zip(slope.slopes()) {
-                all[k][j] = second;
-            }
-        }
-        all
-    }
-
     /// What is known of the excess on a box of variables.
     pub(super) fn on_ellipsoid(&self, question: Question, gains: &Gains<f64>, at: [Interval; VARIABLES]) -> Verdict {
         let sides = PLACES.map(|place| at[place]);
@@ -90,7 +48,8 @@ impl ProcessIntervals {
         if about.value().is_negative() && !self.shape.misses(&centre[..AXES]) {
             return Verdict::Negative;
         }
-        let (slopes, curvature) = (about.slopes(), self.curvature(question, gains, sides));
+        let curved = self.excess_of(question, gains, Gradient::variables(Gradient::variables(sides)));
+        let (slopes, curvature) = (about.slopes(), curved.slopes().map(|one| one.slopes()));
         let form = TaylorForm { centre, pull, sides, slopes, curvature };
         let [of_axes, of_both] = [false, true].map(|others| form.least(others));
         if (about.value() + of_both).is_positive() {
