@@ -84,12 +84,21 @@ impl ProjectionProblem {
         }
     }
 
+    /// Innovations of series over their standard deviations, from the first reading that counts.
+    pub(super) fn whitened<'a>(
+        &self,
+        filter: &InnovationFilter,
+        series: impl IntoIterator<Item = &'a Vec<f64>>,
+    ) -> Vec<DVector<f64>> {
+        filter.whitened(&series.into_iter().map(|one| &one[self.first..]).collect::<Vec<_>>())
+    }
+
     pub(super) fn projection(&self, family: Family, point: &SearchPoint) -> Option<Projection> {
         let (columns, filter, space) =
             (self.columns(family, point), self.filter(family, point), Self::space(family, point));
-        let whitened = |series: &[f64]| filter.whitened(&[&series[self.first..]]).swap_remove(0);
-        let design = DMatrix::from_columns(&columns.iter().map(|column| whitened(column)).collect::<Vec<_>>());
-        let target = whitened(&self.output);
+        let mut whitened = self.whitened(&filter, columns.iter().chain([&self.output]));
+        let target = whitened.pop()?;
+        let design = DMatrix::from_columns(&whitened);
         let (scaled, sizes) = unit_columns(&design);
         let found = scaled.clone().svd(true, true).solve(&target, 1e-10).ok()?;
         let square = (&target - &scaled * &found).norm_squared();
@@ -127,10 +136,8 @@ impl ProjectionProblem {
     /// The same by normal equations, for the search.
     fn fast_variance(&self, family: Family, point: &SearchPoint) -> f64 {
         let filter = self.filter(family, point);
-        let columns = self.columns(family, point);
-        let series: Vec<&[f64]> = columns.iter().chain([&self.output]).map(|series| &series[self.first..]).collect();
-        let mut columns = filter.whitened(&series);
-        let target = columns.pop().unwrap_or_default();
+        let mut columns = self.whitened(&filter, self.columns(family, point).iter().chain([&self.output]));
+        let Some(target) = columns.pop() else { return f64::INFINITY };
         let count = columns.len();
         let sizes: Vec<f64> = columns.iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
         let normal = DMatrix::from_fn(count, count, |i, j| {

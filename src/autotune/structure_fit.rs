@@ -67,14 +67,13 @@ pub(super) fn fitted(
     // Sensitivities of the innovations to all parameters: differences over half an interval bridge the kinks.
     let columns = problem.columns(family, point);
     let filter = problem.filter(family, point);
-    let whitened = |series: &[f64]| filter.whitened(&[&series[problem.first..]]).swap_remove(0);
     let linear: Vec<f64> = found.linear.iter().copied().collect();
     let answer = |times_s: Vec<f64>| -> DVector<f64> {
         let columns = problem.columns(family, &SearchPoint { times_s, walk: point.walk });
         let sum: Vec<f64> = (0..problem.output.len())
             .map(|k| columns.iter().zip(&linear).map(|(column, a)| a * column[k]).sum())
             .collect();
-        whitened(&sum)
+        problem.whitened(&filter, [&sum]).swap_remove(0)
     };
     let mut sensitivities: Vec<DVector<f64>> = Vec::new();
     let times_s = &point.times_s;
@@ -91,7 +90,7 @@ pub(super) fn fitted(
         let width = up[k] - down[k];
         sensitivities.push((answer(up) - answer(down)) / width);
     }
-    sensitivities.extend(columns.iter().map(|column| whitened(column)));
+    sensitivities.extend(problem.whitened(&filter, &columns));
     let design = DMatrix::from_columns(&sensitivities);
     let (scaled, sizes) = unit_columns(&design);
     let information = scaled.transpose() * &scaled;

@@ -316,12 +316,12 @@ fn the_ultimate_point_is_critical() {
 /// The ranges of ultimate gain and frequency are those over all corners of the coefficients' intervals.
 #[test]
 fn the_ultimate_ranges_are_those_of_the_corners() {
-    let mut of_a_corner = 0;
+    let mut wide = 0;
     for seed in [8, 9, 11] {
         let (truth, _) = drawn(seed);
         let found = ProcessRecord::of(&truth.record(0.0, 2e-3 * truth.gain, seed)).unwrap();
         let ranges = found.ultimate().unwrap();
-        let mut least = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        let mut ends = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
         for (model, corner) in found.models.iter().flat_map(|model| (0..32).map(move |corner| (model, corner))) {
             let at = |k: usize| {
                 let part = model.coefficients[k];
@@ -331,20 +331,20 @@ fn the_ultimate_ranges_are_those_of_the_corners() {
             let process =
                 LinearProcess { alpha, drag: at(1), stiffness: at(2), zero_s: at(3), delay_s, ..model.process() };
             for (k, value) in ultimate(&process).into_iter().flatten().enumerate() {
-                least[0][k] = least[0][k].min(value);
-                least[1][k] = least[1][k].max(value);
+                ends[0][k] = ends[0][k].min(value);
+                ends[1][k] = ends[1][k].max(value);
             }
         }
         for (k, range) in ranges.into_iter().enumerate() {
             let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-6;
             assert!(
-                close(range.lower(), least[0][k]) && close(range.upper(), least[1][k]),
-                "{seed} {k}: {range:?} {least:?}"
+                close(range.lower(), ends[0][k]) && close(range.upper(), ends[1][k]),
+                "{seed} {k}: {range:?} {ends:?}"
             );
-            of_a_corner += usize::from(range.width() > 0.02 * range.upper());
+            wide += usize::from(range.width() > 0.02 * range.upper());
         }
     }
-    assert!(of_a_corner > 2, "{of_a_corner}");
+    assert!(wide > 2, "{wide}");
 }
 
 /// Errors over their standard deviations have a mean square of one, under a load that wanders: of stiffness, dead time and gain.
